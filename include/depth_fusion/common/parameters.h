@@ -1,0 +1,38 @@
+// One table of parameters a stage; loading, validation, printing and documentation all come from it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace depth_fusion {
+
+// A row bound to a member of a parameter struct. Minimum and maximum are inclusive and apply to numbers only.
+struct Parameter {
+  std::string name;  // lower_snake_case, with the unit as suffix where it has one (truncation_m)
+  std::variant<bool*, int*, float*> value;
+  double minimum = 0.0;
+  double maximum = 0.0;
+  std::string help;
+};
+
+using ParameterTable = std::vector<Parameter>;
+
+// The rows of `stage_table` with names prefixed by "<stage>/".
+ParameterTable withPrefix(const std::string& stage, ParameterTable stage_table);
+
+// Sets one parameter from text. Throws Error for an unknown name (naming the nearest known one), for text that
+// is no value of the parameter's type, and for a value out of range.
+void setParameter(const ParameterTable& table, const std::string& name, const std::string& text);
+
+// Sets all the parameters of a YAML file of the form `stage: {name: value}`. Throws Error naming the file.
+void loadParameterFile(const ParameterTable& table, const std::string& path);
+
+// The current value of a row as text.
+std::string valueText(const Parameter& parameter);
+
+// Throws Error if a row's value lies outside its range (for values set in code rather than from text).
+void validate(const ParameterTable& table);
+
+}  // namespace depth_fusion

@@ -1,0 +1,45 @@
+// The OpenCL device that everything runs on.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace depth_fusion {
+
+struct DeviceInfo {
+  std::string name;
+  std::string platform;
+  std::string version;
+  bool is_cpu = false;
+  size_t memory_bytes = 0;
+};
+
+// One device, its context, its in-order command queue and the programs built for it.
+class ComputeContext {
+ public:
+  // Every OpenCL device of every platform; empty if there is none.
+  static std::vector<DeviceInfo> listDevices();
+
+  // choice: empty = the first device that passes the self-test, GPUs before CPUs; a number = index in
+  // listDevices(); "gpu" or "cpu"; or a part of a device's name (any case). Empty falls back on the environment
+  // variable DEPTH_FUSION_DEVICE. Throws Error if no device fits, saying why each was refused.
+  explicit ComputeContext(const std::string& choice = "");
+  ~ComputeContext();
+  ComputeContext(const ComputeContext&) = delete;
+  ComputeContext& operator=(const ComputeContext&) = delete;
+
+  const DeviceInfo& device() const;
+  // One line: the device in use, and each one tried before it with the reason why it was refused.
+  const std::string& selfTestReport() const;
+  // Waits until all the work enqueued so far is done.
+  void finish();
+
+  struct Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,91 @@
+// The block-sparse TSDF of the paper, section "Volumetric Scene Representation".
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "depth_fusion/common/parameters.h"
+#include "depth_fusion/compute/compute_context.h"
+#include "depth_fusion/compute/device_buffer.h"
+
+namespace depth_fusion {
+
+struct MapParameters {
+  float voxel_size_m = 0.005f;
+  int blocks_per_axis = 256;
+  int block_size = 8;
+  float truncation_m = 0.02f;
+  int pool_mib = 512;
+
+  ParameterTable table();
+};
+
+// A window of N^3 blocks of M^3 voxels. Two device buffers, both allocated once: `offsets`, one int a block (the slot
+// of its voxels in the pool, -1 = empty), and the pool of voxels, two bytes each: M^3 signed distance bytes (-128 = chi)
+// followed by M^3 weight bytes a slot. The host keeps the list of free slots. Block (i, j, k) covers the voxels
+// M*(i, j, k) and on; voxel v samples the point voxel_size_m * v of W; a block's address in `offsets` is its index
+// modulo N in each axis, so that the window may start anywhere.
+class BlockSparseMap {
+ public:
+  using BlockIndex = Eigen::Vector3i;
+
+  struct Usage {
+    size_t blocks = 0;      // in use
+    size_t capacity = 0;    // blocks that the pool holds
+    size_t bytes = 0;       // 2 * blocks * M^3 + 4 * N^3, the paper's formula
+    size_t pool_bytes = 0;  // device memory really allocated for the map
+  };
+
+  // Throws Error for invalid parameters or if the device cannot hold the map.
+  BlockSparseMap(ComputeContext& compute, const MapParameters& parameters);
+  ~BlockSparseMap();
+
+  // Empties the map and places the middle of the window at the block with the point centre_W.
+  void reset(const Eigen::Vector3d& centre_W);
+
+  // Gives memory, filled with chi, to the first of the blocks as long as there are free slots. The blocks are those
+  // that block selection requested, inside the window and not allocated; requests not met are withdrawn. Returns how
+  // many were met.
+  size_t allocate(const std::vector<BlockIndex>& blocks);
+
+  // Takes back the slots, which must be in use. Their entries of `offsets` are already empty on the device.
+  void release(const std::vector<int>& slots);
+
+  Usage usage() const;
+  const MapParameters& parameters() const { return parameters_; }
+  // Slots [0, slotBound()) have been in use at some time.
+  int slotBound() const { return slot_bound_; }
+  // The blocks in use with their slots, sorted by z, y, x.
+  struct Block {
+    BlockIndex index;
+    int slot;
+  };
+  std::vector<Block> blocks() const;
+
+  // First block of the window.
+  const BlockIndex& origin() const { return origin_; }
+
+  DeviceBuffer& offsets() { return offsets_; }
+  DeviceBuffer& voxels() { return voxels_; }
+  // Four ints a slot: block index x, y, z, and 1 if in use, else 0.
+  DeviceBuffer& blockIndices() { return block_indices_; }
+  // A byte a slot: bits BLOCK_HAS_DATA, BLOCK_NEAR_SURFACE.
+  DeviceBuffer& blockStates() { return block_states_; }
+
+ private:
+  struct Kernels;
+
+  ComputeContext& compute_;
+  MapParameters parameters_;
+  size_t capacity_ = 0;
+  BlockIndex origin_ = BlockIndex::Zero();
+  DeviceBuffer offsets_, voxels_, block_indices_, block_states_, request_transfer_, slot_transfer_;
+  std::vector<int> free_slots_;
+  std::vector<BlockIndex> slot_blocks_;
+  std::vector<bool> slot_in_use_;
+  int slot_bound_ = 0;
+  std::unique_ptr<Kernels> kernels_;
+};
+
+}  // namespace depth_fusion

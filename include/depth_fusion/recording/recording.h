@@ -1,0 +1,37 @@
+// A recorded RGB-D sequence, whatever its format, read frame by frame.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "depth_fusion/recording/rgbd_frame.h"
+
+namespace depth_fusion {
+
+class Recording {
+ public:
+  virtual ~Recording() = default;
+
+  // The next frame in time order, or nothing at the end. Throws Error for a frame that cannot be read; the
+  // call after that goes on with the frame that follows.
+  virtual std::optional<RgbdFrame> next() = 0;
+
+  // How many frames next() will have given at the end.
+  virtual size_t frameCount() const = 0;
+
+  // The format and what was found, in one line, for the user.
+  virtual std::string description() const = 0;
+};
+
+struct RecordingOptions {
+  std::optional<CameraIntrinsics> intrinsics;  // instead of the recording's own (width, height 0: the images')
+  double max_pairing_gap_s = 0.02;             // colour farther from its depth than this is left out
+  std::string depth_topic;                     // bags only; empty: found by type and name
+  std::string color_topic;                     // bags only; empty: found by type and name
+};
+
+// Opens a folder in the TUM or the 7-Scenes layout, found out by looking. Throws Error for any other path.
+std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOptions& options);
+
+}  // namespace depth_fusion

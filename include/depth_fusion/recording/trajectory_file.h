@@ -1,0 +1,20 @@
+// Trajectories as text in the TUM format: "stamp tx ty tz qx qy qz qw" a line, '#' starts a comment.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "depth_fusion/geometry/pose.h"
+
+namespace depth_fusion {
+
+// Throws Error naming the file and line of what cannot be read. The poses come sorted by stamp.
+Trajectory readTrajectory(const std::string& path);
+
+// Throws Error if the file cannot be written completely.
+void writeTrajectory(const std::string& path, const Trajectory& trajectory);
+
+// The pose at stamp_s, interpolated between its neighbours, or nothing if none lies within max_gap_s on either side.
+std::optional<Pose> poseAt(const Trajectory& trajectory, double stamp_s, double max_gap_s);
+
+}  // namespace depth_fusion

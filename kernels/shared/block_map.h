@@ -1,0 +1,38 @@
+// Addresses in the block-sparse map. BLOCK_SIZE_LOG2: log2 of the voxels per block axis.
+#include "shared/simd.h"
+#include "shared/types.h"
+#ifndef BLOCK_SIZE_LOG2
+#define BLOCK_SIZE_LOG2 3
+#endif
+#define BLOCK_SIZE (1 << BLOCK_SIZE_LOG2)
+#define BLOCK_VOXELS (1 << (3 * BLOCK_SIZE_LOG2))
+
+// Index in the offset buffer of the block with the given coordinates, or -1 outside of the window.
+inline int block_address(int3 block, const GridArgs grid) {
+  const int n = grid.blocks_per_axis;
+  int3 in_window = block - (int3)(grid.origin[0], grid.origin[1], grid.origin[2]);
+  if (any(in_window < 0) || any(in_window >= n)) return -1;
+  in_window += (int3)(grid.wrapped_origin[0], grid.wrapped_origin[1], grid.wrapped_origin[2]);
+  in_window = select(in_window, in_window - n, in_window >= n);
+  return in_window.x + n * (in_window.y + n * in_window.z);
+}
+
+// The same for one block a lane.
+inline vint block_addresses(vint x, vint y, vint z, const GridArgs grid) {
+  const int n = grid.blocks_per_axis;
+  x -= grid.origin[0];
+  y -= grid.origin[1];
+  z -= grid.origin[2];
+  const vint inside = (x >= 0) & (x < n) & (y >= 0) & (y < n) & (z >= 0) & (z < n);
+  x += grid.wrapped_origin[0];
+  y += grid.wrapped_origin[1];
+  z += grid.wrapped_origin[2];
+  x = select(x, x - n, x >= n);
+  y = select(y, y - n, y >= n);
+  z = select(z, z - n, z >= n);
+  return select((vint)(-1), x + n * (y + n * z), inside);
+}
+
+// Byte offsets of a block's distances and weights in the voxel pool.
+inline size_t block_distances(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS); }
+inline size_t block_weights(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS) + BLOCK_VOXELS; }

@@ -1,0 +1,75 @@
+// Vectors of SIMD_WIDTH lanes for OpenCL C: one lane a work-item on a GPU, 8 or 16 on a CPU.
+// Masks are integers: vectors hold 0 or -1 a lane, scalars 0 or 1 as the comparison operators give.
+#ifndef SIMD_WIDTH
+#define SIMD_WIDTH 1
+#endif
+
+#define SIMD_JOIN_(a, b) a##b
+#define SIMD_JOIN(a, b) SIMD_JOIN_(a, b)
+
+#if SIMD_WIDTH == 1
+typedef float vfloat;
+typedef int vint;
+typedef uint vuint;
+typedef char vchar;
+typedef uchar vuchar;
+#define VLOAD(pointer) (*(pointer))
+#define VSTORE(value, pointer) (*(pointer) = (value))
+#define TO_VFLOAT(x) convert_float(x)
+#define TO_VINT(x) convert_int(x)
+#define TO_VCHAR(x) convert_char(x)
+#define TO_VUCHAR(x) convert_uchar(x)
+#define AS_VFLOAT(x) as_float(x)
+#define AS_VINT(x) as_int(x)
+#define AS_VUINT(x) as_uint(x)
+#define TO_VMASK8(mask) convert_char(mask)
+#define ANY(mask) ((mask) != 0)
+#define ALL(mask) ((mask) != 0)
+#define NOT(mask) (!(mask))
+#define LANE_INDICES 0
+#define GATHER(type, pointer, i) ((pointer)[i])
+#define SUM_LANES(v) (v)
+#else
+typedef SIMD_JOIN(float, SIMD_WIDTH) vfloat;
+typedef SIMD_JOIN(int, SIMD_WIDTH) vint;
+typedef SIMD_JOIN(uint, SIMD_WIDTH) vuint;
+typedef SIMD_JOIN(char, SIMD_WIDTH) vchar;
+typedef SIMD_JOIN(uchar, SIMD_WIDTH) vuchar;
+#define VLOAD(pointer) SIMD_JOIN(vload, SIMD_WIDTH)(0, pointer)
+#define VSTORE(value, pointer) SIMD_JOIN(vstore, SIMD_WIDTH)(value, 0, pointer)
+#define TO_VFLOAT(x) SIMD_JOIN(convert_float, SIMD_WIDTH)(x)
+#define TO_VINT(x) SIMD_JOIN(convert_int, SIMD_WIDTH)(x)
+#define TO_VCHAR(x) SIMD_JOIN(convert_char, SIMD_WIDTH)(x)
+#define TO_VUCHAR(x) SIMD_JOIN(convert_uchar, SIMD_WIDTH)(x)
+#define AS_VFLOAT(x) SIMD_JOIN(as_float, SIMD_WIDTH)(x)
+#define AS_VINT(x) SIMD_JOIN(as_int, SIMD_WIDTH)(x)
+#define AS_VUINT(x) SIMD_JOIN(as_uint, SIMD_WIDTH)(x)
+#define TO_VMASK8(mask) SIMD_JOIN(convert_char, SIMD_WIDTH)(mask)
+#define ANY(mask) any(mask)
+#define ALL(mask) all(mask)
+#define NOT(mask) (~(mask))
+#if SIMD_WIDTH == 8
+#define LANE_INDICES ((vint)(0, 1, 2, 3, 4, 5, 6, 7))
+#define GATHER(type, p, i)                                                                           \
+  ((type)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], \
+          (p)[(i).s7]))
+inline float sum_lanes(float8 v) {
+  const float4 a = v.lo + v.hi;
+  const float2 b = a.lo + a.hi;
+  return b.x + b.y;
+}
+#else
+#define LANE_INDICES ((vint)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#define GATHER(type, p, i)                                                                               \
+  ((type)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6],     \
+          (p)[(i).s7], (p)[(i).s8], (p)[(i).s9], (p)[(i).sa], (p)[(i).sb], (p)[(i).sc], (p)[(i).sd],     \
+          (p)[(i).se], (p)[(i).sf]))
+inline float sum_lanes(float16 v) {
+  const float8 a = v.lo + v.hi;
+  const float4 b = a.lo + a.hi;
+  const float2 c = b.lo + b.hi;
+  return c.x + c.y;
+}
+#endif
+#define SUM_LANES(v) sum_lanes(v)
+#endif

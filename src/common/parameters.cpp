@@ -1,0 +1,125 @@
+#include "depth_fusion/common/parameters.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "depth_fusion/common/error.h"
+
+namespace depth_fusion {
+namespace {
+
+size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string nearestName(const ParameterTable& table, const std::string& name) {
+  std::string nearest;
+  size_t best = std::numeric_limits<size_t>::max();
+  for (const Parameter& parameter : table) {
+    const size_t distance = editDistance(parameter.name, name);
+    if (distance < best) {
+      best = distance;
+      nearest = parameter.name;
+    }
+  }
+  return nearest;
+}
+
+template <class Number>
+Number parseNumber(const std::string& name, const std::string& text) {
+  std::istringstream stream(text);
+  Number number{};
+  stream >> number;
+  check(!stream.fail() && stream.eof(), "parameter '" + name + "': '" + text + "' is not a number of its type");
+  return number;
+}
+
+void checkRange(const Parameter& parameter) {
+  double number = 0.0;
+  if (const auto* value = std::get_if<int*>(&parameter.value)) {
+    number = **value;
+  } else if (const auto* real = std::get_if<float*>(&parameter.value)) {
+    number = **real;
+  } else {
+    return;
+  }
+  // The limits are compared in float so that a float default equal to its limit passes; NaN never does.
+  const bool inside = static_cast<float>(number) >= static_cast<float>(parameter.minimum) &&
+                      static_cast<float>(number) <= static_cast<float>(parameter.maximum);
+  if (inside) return;
+  std::ostringstream message;
+  message << "parameter '" << parameter.name << "' is " << number << "; it must lie in [" << parameter.minimum
+          << ", " << parameter.maximum << "]";
+  throw Error(message.str());
+}
+
+void flatten(const YAML::Node& node, const std::string& prefix, const ParameterTable& table) {
+  for (const auto& entry : node) {
+    const std::string name = prefix + entry.first.as<std::string>();
+    if (entry.second.IsMap()) {
+      flatten(entry.second, name + "/", table);
+    } else {
+      check(entry.second.IsScalar(), "parameter '" + name + "' is not a single value");
+      setParameter(table, name, entry.second.Scalar());
+    }
+  }
+}
+
+}  // namespace
+
+ParameterTable withPrefix(const std::string& stage, ParameterTable stage_table) {
+  for (Parameter& parameter : stage_table) parameter.name = stage + "/" + parameter.name;
+  return stage_table;
+}
+
+void setParameter(const ParameterTable& table, const std::string& name, const std::string& text) {
+  const auto row =
+      std::find_if(table.begin(), table.end(), [&](const Parameter& p) { return p.name == name; });
+  check(row != table.end(), "unknown parameter '" + name + "'; did you mean '" + nearestName(table, name) + "'?");
+  if (const auto* flag = std::get_if<bool*>(&row->value)) {
+    check(text == "true" || text == "false", "parameter '" + name + "': '" + text + "' is neither true nor false");
+    **flag = text == "true";
+  } else if (const auto* integer = std::get_if<int*>(&row->value)) {
+    **integer = parseNumber<int>(name, text);
+  } else {
+    *std::get<float*>(row->value) = parseNumber<float>(name, text);
+  }
+  checkRange(*row);
+}
+
+void loadParameterFile(const ParameterTable& table, const std::string& path) {
+  try {
+    const YAML::Node root = YAML::LoadFile(path);
+    check(root.IsMap() || root.IsNull(), "the file holds no map of stages");
+    flatten(root, "", table);
+  } catch (const std::exception& error) {
+    throw Error("parameter file " + path + ": " + error.what());
+  }
+}
+
+std::string valueText(const Parameter& parameter) {
+  std::ostringstream text;
+  text << std::boolalpha;
+  std::visit([&](const auto* value) { text << *value; }, parameter.value);
+  return text.str();
+}
+
+void validate(const ParameterTable& table) {
+  for (const Parameter& parameter : table) checkRange(parameter);
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,11 @@
+// The text of the files below kernels/, compiled into the library (see cmake/EmbedKernels.cmake).
+#pragma once
+
+#include <string>
+
+namespace depth_fusion {
+
+// path: below kernels/, as "map/select_blocks.cl". Throws Error if there is no such file.
+std::string embeddedKernelSource(const std::string& path);
+
+}  // namespace depth_fusion

@@ -1,0 +1,37 @@
+// The OpenCL headers, as this project uses them, and what a ComputeContext holds.
+#pragma once
+
+#define CL_HPP_ENABLE_EXCEPTIONS
+#define CL_HPP_TARGET_OPENCL_VERSION 120
+#define CL_HPP_MINIMUM_OPENCL_VERSION 120
+#define CL_TARGET_OPENCL_VERSION 120
+#if __has_include(<CL/opencl.hpp>)
+#include <CL/opencl.hpp>
+#else
+#include <CL/cl2.hpp>
+#endif
+
+#include <map>
+#include <string>
+
+#include "depth_fusion/compute/compute_context.h"
+
+namespace depth_fusion {
+
+struct ComputeContext::Impl {
+  cl::Device device;
+  cl::Context context;
+  cl::CommandQueue queue;
+  DeviceInfo info;
+  std::string report;
+  int simd_width = 1;                          // pixels or voxels a work-item handles at a time
+  std::map<std::string, cl::Program> programs;  // by file and options
+
+  // Builds the program once. file: path below kernels/. Throws Error with the build log.
+  const cl::Program& program(const std::string& file, const std::string& options);
+};
+
+// Text of an OpenCL status code.
+std::string statusText(cl_int status);
+
+}  // namespace depth_fusion

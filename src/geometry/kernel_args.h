@@ -1,0 +1,28 @@
+// Conversions to the argument structs that host and kernels share.
+#pragma once
+
+#include "depth_fusion/geometry/camera_intrinsics.h"
+#include "depth_fusion/geometry/pose.h"
+#include "shared/types.h"
+
+namespace depth_fusion {
+
+inline int pitchOf(int width) { return (width + 15) / 16 * 16; }
+
+inline CameraArgs toArgs(const CameraIntrinsics& camera) {
+  return {static_cast<float>(camera.fx), static_cast<float>(camera.fy), static_cast<float>(camera.cx),
+          static_cast<float>(camera.cy), camera.width, camera.height, pitchOf(camera.width)};
+}
+
+inline TransformArgs toArgs(const Pose& T_A_B) {
+  TransformArgs args{};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      args.rotation[3 * row + column] = static_cast<float>(T_A_B.linear()(row, column));
+    }
+    args.translation[row] = static_cast<float>(T_A_B.translation()(row));
+  }
+  return args;
+}
+
+}  // namespace depth_fusion
