@@ -1,10 +1,11 @@
-// Opens any recording, bags included.
+// Recordings of any kind, bags included.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "depth_fusion/recording/recording.h"
+#include "depth_fusion/recording/recording_writer.h"
 
 namespace depth_fusion {
 
@@ -15,5 +16,9 @@ std::unique_ptr<Recording> openRecording(const std::string& path, const Recordin
 // Image (rgb8, bgr8, mono8) or CompressedImage (jpeg, png), intrinsics from the CameraInfo beside the depth topic.
 // Throws Error naming the topics of the bag if no depth topic or no camera_info is found.
 std::unique_ptr<Recording> openBag(const std::string& path, const RecordingOptions& options);
+
+// A bag with the topics of openni2_launch: camera/depth_registered/image_raw (16UC1, mm), camera/rgb/image_raw (bgr8),
+// their camera_info, and the reference pose of the depth camera on /tf (world -> camera_rgb_optical_frame).
+std::unique_ptr<RecordingWriter> createBag(const std::string& path);
 
 }  // namespace depth_fusion
