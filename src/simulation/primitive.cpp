@@ -50,7 +50,10 @@ Primitive::Primitive(Shape shape, const Pose& T_W_S, const Vector3d& half_size_m
       rounding_m_(rounding_m) {}
 
 double Primitive::distance(const Vector3d& p_W) const {
-  const Vector3d p_S = R_S_W_ * (p_W - T_W_S_.translation());
+  return distanceInS(R_S_W_ * (p_W - T_W_S_.translation()));
+}
+
+double Primitive::distanceInS(const Vector3d& p_S) const {
   switch (shape_) {
     case Shape::kBox: return boxDistance(p_S, half_size_m_.array() - rounding_m_) - rounding_m_;
     case Shape::kRoom: return -boxDistance(p_S, half_size_m_);
@@ -70,6 +73,39 @@ Vector3d Primitive::normal(const Vector3d& p_W) const {
     gradient[axis] = distance(p_W + step) - distance(p_W - step);
   }
   return gradient.normalized();
+}
+
+Primitive::Interval Primitive::hitInterval(const Vector3d& origin_S, const Vector3d& ray_S) const {
+  if (shape_ == Shape::kPlane) {
+    const double hit_m = -origin_S.z() / ray_S.z();
+    return {hit_m, hit_m};
+  }
+  const Vector3d extent = shape_ == Shape::kSphere    ? Vector3d::Constant(half_size_m_.x())
+                          : shape_ == Shape::kCapsule ? half_size_m_ + half_size_m_.x() * Vector3d::UnitZ()
+                                                      : half_size_m_;
+  const Eigen::Array3d low = (-extent - origin_S).array() / ray_S.array();
+  const Eigen::Array3d high = (extent - origin_S).array() / ray_S.array();
+  const double enter_m = low.min(high).maxCoeff();
+  const double leave_m = low.max(high).minCoeff();
+  if (shape_ == Shape::kRoom) return {leave_m, leave_m};
+  return {std::max(enter_m, 0.0), leave_m};
+}
+
+std::optional<double> Primitive::firstHit(const Vector3d& origin_W, const Vector3d& ray_W,
+                                          double max_range_m) const {
+  constexpr double kHit_m = 1e-6;
+  constexpr int kMaxSteps = 400;
+  const Vector3d origin_S = R_S_W_ * (origin_W - T_W_S_.translation());
+  const Vector3d ray_S = R_S_W_ * ray_W;
+  const Interval interval = hitInterval(origin_S, ray_S);
+  const double end_m = std::min(interval.end_m + kHit_m, max_range_m);
+  double range_m = interval.begin_m;
+  for (int step = 0; step < kMaxSteps && range_m >= 0.0 && range_m < end_m; ++step) {
+    const double distance_m = distanceInS(origin_S + range_m * ray_S);
+    if (distance_m < kHit_m) return range_m;
+    range_m += distance_m;
+  }
+  return std::nullopt;
 }
 
 double Primitive::boundingRadius() const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace depth_fusion {
 namespace {
@@ -10,25 +9,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kTile_px = 16;
-constexpr double kHit_m = 1e-6;
 constexpr double kFar_m = 30.0;
-constexpr int kMaxSteps = 400;
 
 using Primitives = std::vector<const Primitive*>;
-
-struct Nearest {
-  const Primitive* primitive = nullptr;
-  double distance_m = std::numeric_limits<double>::infinity();
-};
-
-Nearest nearestOf(const Primitives& primitives, const Vector3d& p_W) {
-  Nearest nearest;
-  for (const Primitive* primitive : primitives) {
-    const double distance_m = primitive->distance(p_W);
-    if (distance_m < nearest.distance_m) nearest = {primitive, distance_m};
-  }
-  return nearest;
-}
 
 struct Hit {
   const Primitive* primitive = nullptr;  // null: nothing is hit
@@ -36,13 +19,12 @@ struct Hit {
 };
 
 Hit trace(const Primitives& primitives, const Vector3d& origin_W, const Vector3d& ray_W) {
-  double range_m = 0.0;
-  for (int step = 0; step < kMaxSteps && range_m < kFar_m; ++step) {
-    const Nearest nearest = nearestOf(primitives, origin_W + range_m * ray_W);
-    if (nearest.distance_m < kHit_m) return {nearest.primitive, range_m};
-    range_m += nearest.distance_m;
+  Hit nearest{nullptr, kFar_m};
+  for (const Primitive* primitive : primitives) {
+    const std::optional<double> range_m = primitive->firstHit(origin_W, ray_W, nearest.range_m);
+    if (range_m) nearest = {primitive, *range_m};
   }
-  return {};
+  return nearest;
 }
 
 // Light from the ceiling's middle and all around: fixed in W, so that colours do not change with the view.

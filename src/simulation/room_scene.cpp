@@ -23,15 +23,22 @@ void addShell(Solids& solids) {
   solids.push_back(box({0, 0.7, 2.45}, {4.2, 0.2, 0.3}, kWoodDark));
   solids.push_back(box({0, -0.8, 2.45}, {4.2, 0.2, 0.3}, kWoodDark));
   solids.push_back(sphere({0.3, -0.05, 2.4}, 0.16, {{180, 220, 230}, Pattern::kSpeckles, 0.1, 0.3}));
+  for (const double x : {-1.55, -0.3, 0.95}) {
+    solids.push_back(cylinder({x, 1.5, -0.1}, {x, 1.5, 2.6}, 0.12, kStone));
+    solids.push_back(cylinder({x, -1.5, -0.1}, {x, -1.5, 2.6}, 0.12, kStone));
+  }
   solids.push_back(cylinder({1.85, 1.35, -0.1}, {1.85, 1.35, 2.6}, 0.18, kStone));
 }
 
 void addWallDecoration(Solids& solids) {
-  solids.push_back(box({-0.9, 1.5, 1.5}, {0.9, 0.08, 0.65}, {{150, 120, 60}, Pattern::kTiles, 0.09, 0.9}));
-  solids.push_back(box({0.55, 1.5, 1.6}, {0.6, 0.08, 0.8}, {{70, 150, 170}, Pattern::kSpeckles, 0.14, 0.9}));
-  solids.push_back(box({0.2, -1.5, 1.6}, {1.2, 0.10, 0.7}, {{160, 100, 130}, Pattern::kTiles, 0.11, 0.9}));
-  solids.push_back(box({-1.35, -1.5, 1.5}, {0.5, 0.08, 0.5}, {{80, 160, 90}, Pattern::kSpeckles, 0.1, 0.9}));
-  solids.push_back(box({2.0, -0.4, 1.75}, {0.12, 1.0, 0.9}, {{190, 150, 110}, Pattern::kTiles, 0.15, 0.8}));
+  solids.push_back(box({-0.9, 1.5, 1.5}, {0.8, 0.16, 0.65}, {{150, 120, 60}, Pattern::kTiles, 0.09, 0.9}));
+  solids.push_back(box({0.35, 1.5, 1.6}, {0.6, 0.16, 0.8}, {{70, 150, 170}, Pattern::kSpeckles, 0.14, 0.9}));
+  solids.push_back(box({0.3, -1.5, 1.2}, {1.0, 0.3, 0.06}, kWoodDark));
+  solids.push_back(sphere({0.0, -1.4, 1.3}, 0.09, kStone));
+  solids.push_back(box({0.5, -1.4, 1.32}, {0.2, 0.12, 0.24}, {{80, 170, 170}, Pattern::kTiles, 0.08, 0.7}, 0.3));
+  solids.push_back(box({0.3, -1.5, 1.85}, {1.0, 0.16, 0.6}, {{160, 100, 130}, Pattern::kTiles, 0.11, 0.9}));
+  solids.push_back(box({-0.95, -1.5, 1.5}, {0.6, 0.16, 0.5}, {{80, 160, 90}, Pattern::kSpeckles, 0.1, 0.9}));
+  solids.push_back(box({2.0, -0.4, 1.75}, {0.16, 1.0, 0.9}, {{190, 150, 110}, Pattern::kTiles, 0.15, 0.8}));
   solids.push_back(cylinder({1.9, 0.6, 1.7}, {2.1, 0.6, 1.7}, 0.2, {{120, 170, 200}, Pattern::kTiles, 0.08, 0.7}));
 }
 
@@ -110,15 +117,18 @@ void addLooseThings(Solids& solids) {
   solids.push_back(sphere({0.2, 1.3, 0.8}, 0.23, {{60, 150, 70}, Pattern::kSpeckles, 0.06, 0.9}));
   solids.push_back(box({-1.1, 1.3, 0.3}, {0.9, 0.4, 0.65}, kFabric, 0.0, 0.02));
   solids.push_back(box({-1.25, 1.3, 0.72}, {0.3, 0.25, 0.24}, {{150, 60, 150}, Pattern::kTiles, 0.08, 0.7}, 0.6));
+  solids.push_back(box({1.75, 0.65, 0.2}, {0.4, 0.45, 0.5}, kFabric, 0.2));
+  solids.push_back(sphere({1.75, 0.65, 0.6}, 0.18, {{200, 120, 160}, Pattern::kTiles, 0.08, 0.7}));
+  solids.push_back(cylinder({0.85, 1.3, -0.1}, {0.85, 1.3, 0.75}, 0.12, {{90, 160, 200}, Pattern::kTiles, 0.1, 0.7}));
   solids.push_back(box({1.3, 1.2, 0.15}, {0.4, 0.35, 0.4}, {{60, 160, 180}, Pattern::kTiles, 0.1, 0.7}, 0.3));
 }
 
 // Walks about the middle at 0.3 m/s and looks around at 25 deg/s, once around in 14 s.
 Gaze roomGaze(const Sway& sway) {
   Gaze gaze;
-  gaze.eye_W = {0.8 * sway(0, 9.0), 0.45 * sway(1, 6.0), 1.55 + 0.1 * sway(2, 5.0)};
-  const double yaw_rad = (25.0 * sway.time_s() + 25.0 * sway(3, 8.0)) * kRadPerDeg;
-  const double pitch_rad = (-20.0 + 10.0 * sway(4, 6.0)) * kRadPerDeg;
+  gaze.eye_W = {0.8 * sway(0, 13.0), 0.4 * sway(1, 9.0), 1.55 + 0.1 * sway(2, 7.0)};
+  const double yaw_rad = (25.0 * sway.time_s() + 20.0 * sway(3, 8.0)) * kRadPerDeg;
+  const double pitch_rad = (-28.0 + 7.0 * sway(4, 6.0)) * kRadPerDeg;
   gaze.target_W = gaze.eye_W + Vector3d(std::cos(pitch_rad) * std::cos(yaw_rad),
                                         std::cos(pitch_rad) * std::sin(yaw_rad), std::sin(pitch_rad));
   return gaze;

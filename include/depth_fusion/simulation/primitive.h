@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "depth_fusion/geometry/pose.h"
 
@@ -44,12 +45,24 @@ class Primitive {
   // Unit vector away from the surface: the gradient of distance().
   Eigen::Vector3d normal(const Eigen::Vector3d& p_W) const;
 
+  // Range at which a ray (of unit length, from free space) first meets the surface, if that is before max_range_m.
+  std::optional<double> firstHit(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& ray_W,
+                                 double max_range_m) const;
+
   const Material& material() const { return material_; }
   Eigen::Vector3d centre_W() const { return T_W_S_.translation(); }
   // Of the sphere about centre_W() that holds the solid; infinite for rooms and planes.
   double boundingRadius() const;
 
  private:
+  struct Interval {
+    double begin_m, end_m;
+  };
+
+  double distanceInS(const Eigen::Vector3d& p_S) const;
+  // The part of a ray that can hold the first hit; empty if its end lies before its begin.
+  Interval hitInterval(const Eigen::Vector3d& origin_S, const Eigen::Vector3d& ray_S) const;
+
   Shape shape_;
   Pose T_W_S_;
   Eigen::Matrix3d R_S_W_;
