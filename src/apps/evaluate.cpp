@@ -23,10 +23,13 @@ struct Arguments {
 };
 
 void addOptions(CLI::App& app, Arguments& arguments) {
-  auto* trajectory = app.add_option("-t,--trajectory", arguments.trajectory, "estimated trajectory (TUM format)");
-  auto* groundtruth = app.add_option("-g,--groundtruth", arguments.groundtruth, "true trajectory (TUM format)");
+  auto* trajectory =
+      app.add_option("-t,--trajectory", arguments.trajectory, "estimated trajectory (TUM format)");
+  auto* groundtruth =
+      app.add_option("-g,--groundtruth", arguments.groundtruth, "true trajectory (TUM format)");
   trajectory->needs(groundtruth);
-  app.add_option("-p,--plot", arguments.plot, "picture of both trajectories to write (.png)")->needs(trajectory);
+  app.add_option("-p,--plot", arguments.plot, "picture of both trajectories to write (.png)")
+      ->needs(trajectory);
   auto* mesh = app.add_option("-m,--mesh", arguments.mesh, "mesh (binary .ply) to measure");
   auto* scene = app.add_option("-s,--scene", arguments.scene,
                                "the scene the mesh shows: a folder written by simulate, or a scene's name");
@@ -35,23 +38,27 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--max-gap", arguments.options.max_gap_s,
                  "seconds to the nearest true poses, over which an estimated pose is left out")
       ->capture_default_str();
-  app.add_option("--rpe-interval", arguments.options.rpe_interval_s, "seconds over which the relative error is taken")
+  app.add_option("--rpe-interval", arguments.options.rpe_interval_s,
+                 "seconds over which the relative error is taken")
       ->capture_default_str();
   app.add_flag("-j,--json", arguments.json, "print the result as JSON, in metres and degrees");
   app.footer(
-      "A trajectory is aligned rigidly, without scale, before its absolute error (ATE) is taken; the relative error\n"
-      "(RPE) needs no alignment. The mesh is moved into the scene's world, with --trajectory and --groundtruth by\n"
-      "their alignment, with --groundtruth alone by its first pose (a mesh in the frame of the first camera), with\n"
+      "A trajectory is aligned rigidly, without scale, before its absolute error (ATE) is taken; the "
+      "relative error\n"
+      "(RPE) needs no alignment. The mesh is moved into the scene's world, with --trajectory and "
+      "--groundtruth by\n"
+      "their alignment, with --groundtruth alone by its first pose (a mesh in the frame of the first "
+      "camera), with\n"
       "neither not at all (a mesh fused with the true poses).\n\n"
-      "Examples: evaluate --trajectory out/trajectory.txt --groundtruth room/groundtruth.txt --plot error.png\n"
+      "Examples: evaluate --trajectory out/trajectory.txt --groundtruth room/groundtruth.txt --plot "
+      "error.png\n"
       "          evaluate --mesh out/mesh.ply --scene room \\\n"
       "                   --trajectory out/trajectory.txt --groundtruth room/groundtruth.txt");
 }
 
 Json toJson(const ErrorStatistics& statistics) {
-  return {{"rmse", statistics.rmse},     {"mean", statistics.mean},
-          {"median", statistics.median}, {"p95", statistics.percentile95},
-          {"max", statistics.max},       {"count", statistics.count}};
+  return {{"rmse", statistics.rmse},        {"mean", statistics.mean}, {"median", statistics.median},
+          {"p95", statistics.percentile95}, {"max", statistics.max},   {"count", statistics.count}};
 }
 
 Json toJson(const TrajectoryError& error) {
@@ -89,7 +96,8 @@ void print(const TrajectoryError& error, const TrajectoryErrorOptions& options) 
 }
 
 void print(const MeshError& error) {
-  std::printf("mesh: %zu triangles, %.3f m^2, distance to the true surface\n", error.triangles, error.area_m2);
+  std::printf("mesh: %zu triangles, %.3f m^2, distance to the true surface\n", error.triangles,
+              error.area_m2);
   printRow("of the vertices", error.vertices_m, 1000.0, "mm");
   printRow("of the surface", error.surface_m, 1000.0, "mm");
 }
@@ -113,7 +121,8 @@ void evaluate(const Arguments& arguments) {
     const Trajectory truth = readTrajectory(arguments.groundtruth);
     T_W_M = truth.front().T_W_D;
     if (!arguments.trajectory.empty()) {
-      const TrajectoryError error = compareTrajectories(readTrajectory(arguments.trajectory), truth, arguments.options);
+      const TrajectoryError error =
+          compareTrajectories(readTrajectory(arguments.trajectory), truth, arguments.options);
       T_W_M = error.T_W_E;
       report["trajectory"] = toJson(error);
       if (!arguments.json) print(error, arguments.options);
@@ -133,7 +142,9 @@ void evaluate(const Arguments& arguments) {
 }  // namespace depth_fusion
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures trajectories against ground truth, and meshes against the exact surface of a built-in scene.");
+  CLI::App app(
+      "Measures trajectories against ground truth, and meshes against the exact surface of a built-in "
+      "scene.");
   depth_fusion::Arguments arguments;
   depth_fusion::addOptions(app, arguments);
   CLI11_PARSE(app, argc, argv);

@@ -25,8 +25,9 @@ std::string sceneHelp() {
 
 void addOptions(CLI::App& app, Arguments& arguments) {
   SimulationOptions& simulation = arguments.simulation;
-  app.add_option("-o,--output", arguments.output,
-                 "new folder (TUM layout: depth/, rgb/, groundtruth.txt, camera.yaml, scene.yaml), or FILE.bag")
+  app.add_option(
+         "-o,--output", arguments.output,
+         "new folder (TUM layout: depth/, rgb/, groundtruth.txt, camera.yaml, scene.yaml), or FILE.bag")
       ->required();
   app.add_option("-s,--scene", simulation.scene, sceneHelp())->capture_default_str();
   app.add_option("-n,--frames", simulation.frames, "how many frames")->capture_default_str();
@@ -35,14 +36,16 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--seed", simulation.seed, "another seed: another path of the hand and other noise")
       ->capture_default_str();
   app.add_option("--fps", simulation.fps, "frames per second")->capture_default_str();
-  app.add_option("--speed", simulation.speed, "speed of the hand; 1 is about 0.3 m/s and 25 deg/s in the room")
+  app.add_option("--speed", simulation.speed,
+                 "speed of the hand; 1 is about 0.3 m/s and 25 deg/s in the room")
       ->capture_default_str();
   app.footer(
       "Example: simulate --output room --scene room --frames 300\n"
       "         reconstruct --input room --output out\n"
       "         evaluate --trajectory out/trajectory.txt --groundtruth room/groundtruth.txt \\\n"
       "                  --mesh out/mesh.ply --scene room\n\n"
-      "The same arguments give the same recording, bit for bit. Depth is stored in steps of 0.2 mm (folder) or\n"
+      "The same arguments give the same recording, bit for bit. Depth is stored in steps of 0.2 mm (folder) "
+      "or\n"
       "1 mm (bag); poses are exact, of the depth camera in the scene's world (z up, origin on the floor).");
 }
 
@@ -56,7 +59,8 @@ RgbdFrame asStored(RgbdFrame frame) {
 
 void simulate(const Arguments& arguments) {
   SimulatedRecording recording(arguments.simulation);
-  const auto writer = isBag(arguments.output) ? createBag(arguments.output) : createTumFolder(arguments.output);
+  const auto writer =
+      isBag(arguments.output) ? createBag(arguments.output) : createTumFolder(arguments.output);
   if (!isBag(arguments.output)) writeSceneName(arguments.output, arguments.simulation.scene);
   std::printf("%s\n", recording.description().c_str());
   size_t written = 0;

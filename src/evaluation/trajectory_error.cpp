@@ -74,8 +74,8 @@ TrajectoryError compareTrajectories(const Trajectory& estimate, const Trajectory
   error.estimated_poses = estimate.size();
   error.pairs = pairsOf(estimate, truth, options.max_gap_s);
   check(error.pairs.size() >= 3, "only " + std::to_string(error.pairs.size()) + " of " +
-                                     std::to_string(estimate.size()) + " estimated poses (" + spanText(estimate) +
-                                     ") have a ground truth pose (" + spanText(truth) +
+                                     std::to_string(estimate.size()) + " estimated poses (" +
+                                     spanText(estimate) + ") have a ground truth pose (" + spanText(truth) +
                                      ") at their time; three are needed: are these of the same recording?");
   error.T_W_E = alignment(error.pairs);
   for (PosePair& pair : error.pairs) pair.T_W_estimate = error.T_W_E * pair.T_W_estimate;

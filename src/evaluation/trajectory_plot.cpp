@@ -78,9 +78,13 @@ cv::Scalar errorColor(double fraction) {
 // One view in its square of the canvas, equal scale on both axes.
 class Panel {
  public:
-  Panel(cv::Mat& canvas, const cv::Point& corner, const View& view, const std::vector<PosePair>& pairs, double extent_m)
-      : canvas_(canvas), frame_(corner + cv::Point(kMargin_px, 0), cv::Size(kPanel_px, kPanel_px)), view_(view),
-        pairs_(pairs), extent_m_(extent_m) {
+  Panel(cv::Mat& canvas, const cv::Point& corner, const View& view, const std::vector<PosePair>& pairs,
+        double extent_m)
+      : canvas_(canvas),
+        frame_(corner + cv::Point(kMargin_px, 0), cv::Size(kPanel_px, kPanel_px)),
+        view_(view),
+        pairs_(pairs),
+        extent_m_(extent_m) {
     for (const int axis : {view.horizontal, view.vertical}) {
       const Range range = rangeOf(pairs, axis);
       low_m_[axis] = (range.low + range.high - extent_m) / 2.0;
@@ -99,7 +103,8 @@ class Panel {
       drawSegment(pairs_[i - 1].T_W_estimate, pairs_[i].T_W_estimate,
                   errorColor(distanceOf(pairs_[i]) / max_error_m), 2);
     }
-    cv::circle(canvas_, pixelOf(pairs_.front().T_W_truth), 6 << kSubpixelBits, kInk, 2, cv::LINE_AA, kSubpixelBits);
+    cv::circle(canvas_, pixelOf(pairs_.front().T_W_truth), 6 << kSubpixelBits, kInk, 2, cv::LINE_AA,
+               kSubpixelBits);
   }
 
  private:
@@ -121,7 +126,8 @@ class Panel {
     }
     const std::string name = std::string(1, "xyz"[axis]) + " [m]";
     writeCentred(canvas_, name,
-                 horizontal ? cv::Point(frame_.x + kPanel_px / 2, frame_.br().y + 40) : cv::Point(frame_.x - 30, frame_.y - 14));
+                 horizontal ? cv::Point(frame_.x + kPanel_px / 2, frame_.br().y + 40)
+                            : cv::Point(frame_.x - 30, frame_.y - 14));
   }
 
   void drawSegment(const Pose& from, const Pose& to, const cv::Scalar& color, int thickness) {
@@ -158,8 +164,9 @@ void drawColorBar(cv::Mat& canvas, const cv::Rect& bar, double max_error_m) {
 
 std::string titleOf(const TrajectoryError& error) {
   return number("Trajectory error: ATE RMSE %.1f mm", error.ate_m.rmse * 1000.0) +
-         number(", median %.1f mm", error.ate_m.median * 1000.0) + number(", max %.1f mm", error.ate_m.max * 1000.0) +
-         ", " + std::to_string(error.pairs.size()) + " poses";
+         number(", median %.1f mm", error.ate_m.median * 1000.0) +
+         number(", max %.1f mm", error.ate_m.max * 1000.0) + ", " + std::to_string(error.pairs.size()) +
+         " poses";
 }
 
 }  // namespace
@@ -181,7 +188,8 @@ cv::Mat plotTrajectories(const TrajectoryError& error) {
   }
   drawColorBar(canvas, {2 * panel_width + 35, kHeader_px, 20, kPanel_px}, max_error_m);
   writeText(canvas, titleOf(error), {kMargin_px, 28}, 0.6);
-  writeText(canvas, "grey: ground truth   coloured: estimate   circle: start", {kMargin_px, canvas.rows - 14});
+  writeText(canvas, "grey: ground truth   coloured: estimate   circle: start",
+            {kMargin_px, canvas.rows - 14});
   return canvas;
 }
 

@@ -43,7 +43,8 @@ Pose handHeldPose(const GazePath& path, unsigned seed, double time_s) {
   const Sway sway(seed, time_s);
   Vector6d tremor;
   for (int i = 0; i < 6; ++i) {
-    tremor[i] = (i < 3 ? kTremor_rad : kTremor_m) * sway(kTremorChannel + i, kTremorPeriod_s * (1.0 + 0.2 * i));
+    tremor[i] =
+        (i < 3 ? kTremor_rad : kTremor_m) * sway(kTremorChannel + i, kTremorPeriod_s * (1.0 + 0.2 * i));
   }
   return lookAt(path(sway)) * poseFromTwist(tremor);
 }

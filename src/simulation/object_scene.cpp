@@ -34,8 +34,10 @@ std::vector<Primitive> tableWithThings() {
       sphere({0.09, -0.12, 0.018}, 0.02, {{200, 190, 90}, Pattern::kSpeckles, 0.012, 0.7}),
       capsule({0.0, 0.15, 0.01}, {0.07, 0.17, 0.01}, 0.012, {{150, 80, 160}, Pattern::kTiles, 0.012, 0.7}),
       box({0.02, -0.2, 0.03}, {0.12, 0.05, 0.08}, {{170, 170, 90}, Pattern::kTiles, 0.02, 0.7}, 0.3, 0.004),
-      box({0.23, -0.02, 0.035}, {0.05, 0.1, 0.09}, {{90, 170, 120}, Pattern::kSpeckles, 0.02, 0.7}, -0.2, 0.004),
-      cylinder({-0.22, -0.12, -0.01}, {-0.22, -0.12, 0.09}, 0.035, {{180, 100, 120}, Pattern::kTiles, 0.02, 0.7}),
+      box({0.23, -0.02, 0.035}, {0.05, 0.1, 0.09}, {{90, 170, 120}, Pattern::kSpeckles, 0.02, 0.7}, -0.2,
+          0.004),
+      cylinder({-0.22, -0.12, -0.01}, {-0.22, -0.12, 0.09}, 0.035,
+               {{180, 100, 120}, Pattern::kTiles, 0.02, 0.7}),
       sphere({-0.04, 0.21, 0.035}, 0.04, {{120, 120, 200}, Pattern::kTiles, 0.02, 0.7}),
       box({0.17, 0.18, 0.03}, {0.07, 0.07, 0.08}, {{200, 150, 90}, Pattern::kTiles, 0.02, 0.7}, 0.7),
       sphere({-0.17, 0.03, 0.02}, 0.025, {{90, 130, 220}, Pattern::kTiles, 0.015, 0.7}),
@@ -47,7 +49,8 @@ Gaze objectGaze(const Sway& sway) {
   const double bearing_rad = (25.0 * sway.time_s() + 10.0 * sway(0, 7.0)) * kRadPerDeg;
   const double radius_m = 0.36 + 0.06 * sway(1, 6.0);
   Gaze gaze;
-  gaze.eye_W = {radius_m * std::cos(bearing_rad), radius_m * std::sin(bearing_rad), 0.27 + 0.07 * sway(2, 5.0)};
+  gaze.eye_W = {radius_m * std::cos(bearing_rad), radius_m * std::sin(bearing_rad),
+                0.27 + 0.07 * sway(2, 5.0)};
   gaze.target_W = {0.01 * sway(3, 4.0), 0.01 * sway(4, 5.0), 0.07};
   return gaze;
 }

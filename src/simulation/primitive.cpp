@@ -55,12 +55,18 @@ double Primitive::distance(const Vector3d& p_W) const {
 
 double Primitive::distanceInS(const Vector3d& p_S) const {
   switch (shape_) {
-    case Shape::kBox: return boxDistance(p_S, half_size_m_.array() - rounding_m_) - rounding_m_;
-    case Shape::kRoom: return -boxDistance(p_S, half_size_m_);
-    case Shape::kSphere: return p_S.norm() - half_size_m_.x();
-    case Shape::kCylinder: return cylinderDistance(p_S, half_size_m_);
-    case Shape::kCapsule: return capsuleDistance(p_S, half_size_m_);
-    case Shape::kPlane: return p_S.z();
+    case Shape::kBox:
+      return boxDistance(p_S, half_size_m_.array() - rounding_m_) - rounding_m_;
+    case Shape::kRoom:
+      return -boxDistance(p_S, half_size_m_);
+    case Shape::kSphere:
+      return p_S.norm() - half_size_m_.x();
+    case Shape::kCylinder:
+      return cylinderDistance(p_S, half_size_m_);
+    case Shape::kCapsule:
+      return capsuleDistance(p_S, half_size_m_);
+    case Shape::kPlane:
+      return p_S.z();
   }
   return std::numeric_limits<double>::infinity();
 }
@@ -110,12 +116,17 @@ std::optional<double> Primitive::firstHit(const Vector3d& origin_W, const Vector
 
 double Primitive::boundingRadius() const {
   switch (shape_) {
-    case Shape::kBox: return half_size_m_.norm();
-    case Shape::kSphere: return half_size_m_.x();
-    case Shape::kCylinder: return std::hypot(half_size_m_.x(), half_size_m_.z());
-    case Shape::kCapsule: return half_size_m_.x() + half_size_m_.z();
+    case Shape::kBox:
+      return half_size_m_.norm();
+    case Shape::kSphere:
+      return half_size_m_.x();
+    case Shape::kCylinder:
+      return std::hypot(half_size_m_.x(), half_size_m_.z());
+    case Shape::kCapsule:
+      return half_size_m_.x() + half_size_m_.z();
     case Shape::kRoom:
-    case Shape::kPlane: break;
+    case Shape::kPlane:
+      break;
   }
   return std::numeric_limits<double>::infinity();
 }

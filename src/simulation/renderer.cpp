@@ -66,8 +66,9 @@ class TileRenderer {
       const double radius_m = primitive.boundingRadius();
       const Vector3d centre = primitive.centre_W() - T_W_D_.translation();
       const double range_m = centre.norm();
-      const bool meets = range_m <= radius_m || std::acos(std::clamp(axis_W.dot(centre) / range_m, -1.0, 1.0)) <=
-                                                    cone_rad + std::asin(radius_m / range_m);
+      const bool meets =
+          range_m <= radius_m || std::acos(std::clamp(axis_W.dot(centre) / range_m, -1.0, 1.0)) <=
+                                     cone_rad + std::asin(radius_m / range_m);
       if (meets) primitives.push_back(&primitive);
     }
     return primitives;
@@ -83,8 +84,9 @@ class TileRenderer {
     const Vector3d color = shade(textureColor(hit.primitive->material(), p_W), p_W, normal_W);
     view_.depth_m.at<float>(v, u) = static_cast<float>(hit.range_m * ray.z());
     view_.cos_incidence.at<float>(v, u) = static_cast<float>(-normal_W.dot(ray_W));
-    view_.color.at<cv::Vec3b>(v, u) = cv::Vec3b(cv::saturate_cast<uchar>(color[0]), cv::saturate_cast<uchar>(color[1]),
-                                                cv::saturate_cast<uchar>(color[2]));
+    view_.color.at<cv::Vec3b>(v, u) =
+        cv::Vec3b(cv::saturate_cast<uchar>(color[0]), cv::saturate_cast<uchar>(color[1]),
+                  cv::saturate_cast<uchar>(color[2]));
   }
 
   const Scene& scene_;

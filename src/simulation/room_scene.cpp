@@ -1,4 +1,5 @@
-// A living room, 4 x 3 x 2.5 m about the origin of the floor. The middle above 0.95 m is left free for the camera.
+// A living room, 4 x 3 x 2.5 m about the origin of the floor. The middle above 0.95 m is left free for the
+// camera.
 #include <cmath>
 
 #include "simulation/scenes.h"
@@ -35,11 +36,13 @@ void addWallDecoration(Solids& solids) {
   solids.push_back(box({0.35, 1.5, 1.6}, {0.6, 0.16, 0.8}, {{70, 150, 170}, Pattern::kSpeckles, 0.14, 0.9}));
   solids.push_back(box({0.3, -1.5, 1.2}, {1.0, 0.3, 0.06}, kWoodDark));
   solids.push_back(sphere({0.0, -1.4, 1.3}, 0.09, kStone));
-  solids.push_back(box({0.5, -1.4, 1.32}, {0.2, 0.12, 0.24}, {{80, 170, 170}, Pattern::kTiles, 0.08, 0.7}, 0.3));
+  solids.push_back(
+      box({0.5, -1.4, 1.32}, {0.2, 0.12, 0.24}, {{80, 170, 170}, Pattern::kTiles, 0.08, 0.7}, 0.3));
   solids.push_back(box({0.3, -1.5, 1.85}, {1.0, 0.16, 0.6}, {{160, 100, 130}, Pattern::kTiles, 0.11, 0.9}));
   solids.push_back(box({-0.95, -1.5, 1.5}, {0.6, 0.16, 0.5}, {{80, 160, 90}, Pattern::kSpeckles, 0.1, 0.9}));
   solids.push_back(box({2.0, -0.4, 1.75}, {0.16, 1.0, 0.9}, {{190, 150, 110}, Pattern::kTiles, 0.15, 0.8}));
-  solids.push_back(cylinder({1.9, 0.6, 1.7}, {2.1, 0.6, 1.7}, 0.2, {{120, 170, 200}, Pattern::kTiles, 0.08, 0.7}));
+  solids.push_back(
+      cylinder({1.9, 0.6, 1.7}, {2.1, 0.6, 1.7}, 0.2, {{120, 170, 200}, Pattern::kTiles, 0.08, 0.7}));
 }
 
 void addTable(Solids& solids) {
@@ -50,9 +53,12 @@ void addTable(Solids& solids) {
     }
   }
   solids.push_back(sphere({0.1, 0.2, 0.79}, 0.09, {{60, 140, 220}, Pattern::kSpeckles, 0.06, 0.6}));
-  solids.push_back(cylinder({0.55, -0.05, 0.7}, {0.55, -0.05, 0.86}, 0.055, {{190, 120, 60}, Pattern::kTiles, 0.05, 0.7}));
-  solids.push_back(box({0.65, 0.3, 0.76}, {0.28, 0.2, 0.08}, {{80, 80, 190}, Pattern::kTiles, 0.07, 0.7}, 0.4));
-  solids.push_back(box({-0.1, -0.08, 0.75}, {0.22, 0.16, 0.06}, {{170, 170, 80}, Pattern::kSpeckles, 0.06, 0.7}, -0.3));
+  solids.push_back(
+      cylinder({0.55, -0.05, 0.7}, {0.55, -0.05, 0.86}, 0.055, {{190, 120, 60}, Pattern::kTiles, 0.05, 0.7}));
+  solids.push_back(
+      box({0.65, 0.3, 0.76}, {0.28, 0.2, 0.08}, {{80, 80, 190}, Pattern::kTiles, 0.07, 0.7}, 0.4));
+  solids.push_back(
+      box({-0.1, -0.08, 0.75}, {0.22, 0.16, 0.06}, {{170, 170, 80}, Pattern::kSpeckles, 0.06, 0.7}, -0.3));
 }
 
 void addChair(Solids& solids, double x, double y, double yaw_deg) {
@@ -75,7 +81,8 @@ void addSofa(Solids& solids) {
   const Material cushion{{70, 130, 210}, Pattern::kSpeckles, 0.1, 0.7};
   solids.push_back(box({-0.2, -1.15, 0.2}, {1.7, 0.8, 0.44}, cover, 0.0, 0.03));
   solids.push_back(box({-0.2, -1.42, 0.4}, {1.7, 0.26, 0.84}, cover, 0.0, 0.05));
-  for (const double x : {-1.0, 0.6}) solids.push_back(box({x, -1.15, 0.3}, {0.2, 0.82, 0.64}, cover, 0.0, 0.05));
+  for (const double x : {-1.0, 0.6})
+    solids.push_back(box({x, -1.15, 0.3}, {0.2, 0.82, 0.64}, cover, 0.0, 0.05));
   solids.push_back(capsule({-0.75, -1.15, 0.5}, {-0.4, -1.15, 0.5}, 0.1, cushion));
   solids.push_back(sphere({0.25, -1.1, 0.52}, 0.13, cushion));
 }
@@ -91,7 +98,9 @@ void addShelf(Solids& solids) {
     for (double y = -0.22; y < 0.2; y += 0.1, ++book) {
       const double height_m = 0.26 + 0.05 * (book * 7 % 4);
       const Material cover{{60.0 + book * 53 % 160, 60.0 + book * 97 % 150, 60.0 + book * 31 % 170},
-                           Pattern::kTiles, 0.06, 0.5};
+                           Pattern::kTiles,
+                           0.06,
+                           0.5};
       solids.push_back(box({-1.84 + 0.01 * (book % 3), y, z + height_m / 2}, {0.22, 0.085, height_m}, cover));
     }
     solids.push_back(cylinder({-1.82, 0.65, z}, {-1.82, 0.65, z + 0.3}, 0.09, kStone));
@@ -113,13 +122,16 @@ void addLooseThings(Solids& solids) {
   solids.push_back(sphere({1.55, -1.2, 1.6}, 0.17, {{150, 210, 230}, Pattern::kSpeckles, 0.12, 0.4}));
   solids.push_back(sphere({-1.2, -0.55, 0.2}, 0.2, {{50, 120, 200}, Pattern::kTiles, 0.1, 0.8}));
   solids.push_back(box({-1.6, -1.2, 0.2}, {0.45, 0.4, 0.5}, kWoodLight, 0.5));
-  solids.push_back(cylinder({0.2, 1.3, -0.1}, {0.2, 1.3, 0.6}, 0.15, {{60, 90, 170}, Pattern::kSpeckles, 0.1, 0.6}));
+  solids.push_back(
+      cylinder({0.2, 1.3, -0.1}, {0.2, 1.3, 0.6}, 0.15, {{60, 90, 170}, Pattern::kSpeckles, 0.1, 0.6}));
   solids.push_back(sphere({0.2, 1.3, 0.8}, 0.23, {{60, 150, 70}, Pattern::kSpeckles, 0.06, 0.9}));
   solids.push_back(box({-1.1, 1.3, 0.3}, {0.9, 0.4, 0.65}, kFabric, 0.0, 0.02));
-  solids.push_back(box({-1.25, 1.3, 0.72}, {0.3, 0.25, 0.24}, {{150, 60, 150}, Pattern::kTiles, 0.08, 0.7}, 0.6));
+  solids.push_back(
+      box({-1.25, 1.3, 0.72}, {0.3, 0.25, 0.24}, {{150, 60, 150}, Pattern::kTiles, 0.08, 0.7}, 0.6));
   solids.push_back(box({1.75, 0.65, 0.2}, {0.4, 0.45, 0.5}, kFabric, 0.2));
   solids.push_back(sphere({1.75, 0.65, 0.6}, 0.18, {{200, 120, 160}, Pattern::kTiles, 0.08, 0.7}));
-  solids.push_back(cylinder({0.85, 1.3, -0.1}, {0.85, 1.3, 0.75}, 0.12, {{90, 160, 200}, Pattern::kTiles, 0.1, 0.7}));
+  solids.push_back(
+      cylinder({0.85, 1.3, -0.1}, {0.85, 1.3, 0.75}, 0.12, {{90, 160, 200}, Pattern::kTiles, 0.1, 0.7}));
   solids.push_back(box({1.3, 1.2, 0.15}, {0.4, 0.35, 0.4}, {{60, 160, 180}, Pattern::kTiles, 0.1, 0.7}, 0.3));
 }
 

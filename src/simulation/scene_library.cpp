@@ -43,7 +43,8 @@ void writeSceneName(const std::string& folder, const std::string& name) {
   const std::filesystem::path path = std::filesystem::path(folder) / kSceneFile;
   std::ofstream file(path);
   file << "# The built-in scene that this recording shows, for `evaluate --mesh`\nscene: " << name << "\n";
-  check(file.flush().good(), "cannot write " + path.string() + "; is the folder writable and the disk not full?");
+  check(file.flush().good(),
+        "cannot write " + path.string() + "; is the folder writable and the disk not full?");
 }
 
 std::string findSceneName(const std::string& folder_or_name) {

@@ -6,12 +6,15 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kEdgeStep = 0.03;  // a depth step of this fraction of the depth between neighbours is an edge
+constexpr double kEdgeStep =
+    0.03;  // a depth step of this fraction of the depth between neighbours is an edge
 
 class RowSensor {
  public:
   RowSensor(const RenderedView& view, const SensorModel& sensor, uint64_t seed, int row)
-      : view_(view), sensor_(sensor), random_((seed + 1) * 0x9e3779b97f4a7c15ull ^ (row + 1) * 0xbf58476d1ce4e5b9ull),
+      : view_(view),
+        sensor_(sensor),
+        random_((seed + 1) * 0x9e3779b97f4a7c15ull ^ (row + 1) * 0xbf58476d1ce4e5b9ull),
         row_(row) {
     random_.next();
   }
@@ -27,7 +30,8 @@ class RowSensor {
     const double z_m = view_.depth_m.at<float>(v, u);
     if (z_m <= 0.0 || chance < dropout(u, v, z_m)) return 0.0f;
     const double sensed_m = quantised(z_m + axial * sensor_.axialSigma(z_m));
-    return sensed_m >= sensor_.min_range_m && sensed_m <= sensor_.max_range_m ? static_cast<float>(sensed_m) : 0.0f;
+    return sensed_m >= sensor_.min_range_m && sensed_m <= sensor_.max_range_m ? static_cast<float>(sensed_m)
+                                                                              : 0.0f;
   }
 
  private:

@@ -12,7 +12,8 @@ constexpr double kFirstStamp_s = 1.0;  // ROS does not record a time of zero
 SimulatedRecording::SimulatedRecording(const SimulationOptions& options)
     : options_(options), scene_(makeScene(options.scene)) {
   check(options.frames > 0, "a simulated recording needs at least one frame");
-  check(options.fps > 0.0 && options.speed > 0.0, "frame rate and speed of a simulated recording must be positive");
+  check(options.fps > 0.0 && options.speed > 0.0,
+        "frame rate and speed of a simulated recording must be positive");
   check(options.intrinsics.valid(), "the intrinsics of a simulated recording must be positive");
 }
 
@@ -30,7 +31,8 @@ std::optional<RgbdFrame> SimulatedRecording::next() {
 
   RgbdFrame frame;
   frame.stamp_s = pose.stamp_s;
-  frame.depth = options_.noise ? senseDepth(view, scene_.sensor, noise_seed) : idealDepth(view, scene_.sensor);
+  frame.depth =
+      options_.noise ? senseDepth(view, scene_.sensor, noise_seed) : idealDepth(view, scene_.sensor);
   frame.color = view.color;
   frame.intrinsics = options_.intrinsics;
   frame.T_W_D = pose.T_W_D;

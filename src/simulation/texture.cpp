@@ -54,10 +54,14 @@ double wood(const Vector3d& p) {
 // The pattern's brightness about 0, mostly within [-1, 1].
 double brightness(Pattern pattern, const Vector3d& p) {
   switch (pattern) {
-    case Pattern::kPlain: return 0.0;
-    case Pattern::kSpeckles: return speckles(p);
-    case Pattern::kTiles: return tiles(p);
-    case Pattern::kWood: return wood(p);
+    case Pattern::kPlain:
+      return 0.0;
+    case Pattern::kSpeckles:
+      return speckles(p);
+    case Pattern::kTiles:
+      return tiles(p);
+    case Pattern::kWood:
+      return wood(p);
   }
   return 0.0;
 }

@@ -15,6 +15,7 @@ struct MeshError {
 };
 
 // T_W_M maps the mesh into the scene's world. Throws Error for a mesh without triangles.
-MeshError compareMesh(const TriangleMesh& mesh, const Pose& T_W_M, const Scene& scene, int surface_samples = 500000);
+MeshError compareMesh(const TriangleMesh& mesh, const Pose& T_W_M, const Scene& scene,
+                      int surface_samples = 500000);
 
 }  // namespace depth_fusion

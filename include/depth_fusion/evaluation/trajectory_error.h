@@ -14,11 +14,12 @@ struct PosePair {
 };
 
 struct TrajectoryError {
-  Pose T_W_E = Pose::Identity();  // maps the estimate's world into the truth's: the rigid alignment, without scale
+  Pose T_W_E =
+      Pose::Identity();  // maps the estimate's world into the truth's: the rigid alignment, without scale
   std::vector<PosePair> pairs;
   size_t estimated_poses = 0;
-  ErrorStatistics ate_m;                // absolute trajectory error: distance of the positions after alignment
-  ErrorStatistics rpe_translation_m;    // relative pose error over rpe_interval_s
+  ErrorStatistics ate_m;              // absolute trajectory error: distance of the positions after alignment
+  ErrorStatistics rpe_translation_m;  // relative pose error over rpe_interval_s
   ErrorStatistics rpe_rotation_deg;
 };
 

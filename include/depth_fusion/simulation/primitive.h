@@ -45,7 +45,8 @@ class Primitive {
   // Unit vector away from the surface: the gradient of distance().
   Eigen::Vector3d normal(const Eigen::Vector3d& p_W) const;
 
-  // Range at which a ray (of unit length, from free space) first meets the surface, if that is before max_range_m.
+  // Range at which a ray (of unit length, from free space) first meets the surface, if that is before
+  // max_range_m.
   std::optional<double> firstHit(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& ray_W,
                                  double max_range_m) const;
 

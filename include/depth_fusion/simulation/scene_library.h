@@ -1,4 +1,5 @@
-// The built-in scenes by name. To add one: a function that returns a SimulatedScene, and a row in scene_library.cpp.
+// The built-in scenes by name. To add one: a function that returns a SimulatedScene, and a row in
+// scene_library.cpp.
 #pragma once
 
 #include <string>

@@ -14,11 +14,11 @@ struct SensorModel {
   double sigma_base_m = 0.0;
   double sigma_growth_per_m = 0.0;
   double sigma_from_m = 0.0;
-  double disparity_pxm = 0.0;       // focal length times baseline; disparity = disparity_pxm / z
-  double disparity_step_px = 0.0;   // disparities are multiples of it; 0: not quantised
-  double lateral_sigma_px = 0.0;    // jitter of where a pixel looks
-  double edge_dropout = 0.0;        // probability that a pixel at a depth edge has no depth
-  double grazing_cos = 0.0;         // rays flatter than this lose depth, the likelier the flatter
+  double disparity_pxm = 0.0;      // focal length times baseline; disparity = disparity_pxm / z
+  double disparity_step_px = 0.0;  // disparities are multiples of it; 0: not quantised
+  double lateral_sigma_px = 0.0;   // jitter of where a pixel looks
+  double edge_dropout = 0.0;       // probability that a pixel at a depth edge has no depth
+  double grazing_cos = 0.0;        // rays flatter than this lose depth, the likelier the flatter
 
   double axialSigma(double z_m) const {
     return sigma_base_m + sigma_growth_per_m * (z_m - sigma_from_m) * (z_m - sigma_from_m);
