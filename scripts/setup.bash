@@ -41,7 +41,7 @@ as_root() {
 # The given packages that are not installed, one a line.
 missing_packages() {
   local installed
-  installed="$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null | sed -n 's/ installed$//p')"
+  installed="$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null | sed -n "s/ installed$//p")" || true
   printf '%s\n' "$@" | grep -vxF "$installed" || true
 }
 
