@@ -8,13 +8,15 @@
 
 namespace depth_fusion {
 
-// Throws Error naming the file and line of what cannot be read. The poses come sorted by stamp.
+// Throws Error naming the file and line of what cannot be read, or a file without a pose. The poses come
+// sorted by stamp.
 Trajectory readTrajectory(const std::string& path);
 
 // Throws Error if the file cannot be written completely.
 void writeTrajectory(const std::string& path, const Trajectory& trajectory);
 
-// The pose at stamp_s, interpolated between its neighbours, or nothing if none lies within max_gap_s on either side.
+// The pose at stamp_s of a sorted trajectory: the one with this very stamp, else interpolated between its
+// neighbours; nothing unless there is one within max_gap_s on both sides.
 std::optional<Pose> poseAt(const Trajectory& trajectory, double stamp_s, double max_gap_s);
 
 }  // namespace depth_fusion

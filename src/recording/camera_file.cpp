@@ -1,0 +1,63 @@
+#include "recording/camera_file.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "depth_fusion/common/error.h"
+#include "recording/text_file.h"
+
+namespace depth_fusion {
+namespace {
+
+const std::set<std::string> kKeys = {"width", "height", "fx", "fy", "cx", "cy", "depth_scale"};
+
+double readNumber(const YAML::Node& root, const std::string& key) {
+  check(root[key].IsDefined(), "'" + key + "' is missing");
+  try {
+    return root[key].as<double>();
+  } catch (const YAML::Exception&) {
+    throw Error("'" + key + "' is not a number");
+  }
+}
+
+CameraFile parseCamera(const YAML::Node& root) {
+  check(root.IsMap(), "expected lines 'key: number' for width, height, fx, fy, cx, cy");
+  for (const auto& entry : root) {
+    const std::string key = entry.first.as<std::string>();
+    check(kKeys.count(key) == 1, "unknown key '" + key + "'");
+  }
+  CameraFile file;
+  file.camera.width = static_cast<int>(readNumber(root, "width"));
+  file.camera.height = static_cast<int>(readNumber(root, "height"));
+  file.camera.fx = readNumber(root, "fx");
+  file.camera.fy = readNumber(root, "fy");
+  file.camera.cx = readNumber(root, "cx");
+  file.camera.cy = readNumber(root, "cy");
+  if (root["depth_scale"].IsDefined()) file.depth_scale = readNumber(root, "depth_scale");
+  check(file.depth_scale > 0.0, "'depth_scale' must be positive");
+  return file;
+}
+
+}  // namespace
+
+CameraFile readCameraFile(const std::string& path) {
+  try {
+    return parseCamera(YAML::LoadFile(path));
+  } catch (const std::exception& error) {
+    throw Error(path + ": " + error.what());
+  }
+}
+
+void writeCameraFile(const std::string& path, const CameraFile& file) {
+  std::ostringstream text;
+  text.precision(std::numeric_limits<double>::max_digits10);
+  text << "width: " << file.camera.width << "\nheight: " << file.camera.height << "\nfx: " << file.camera.fx
+       << "\nfy: " << file.camera.fy << "\ncx: " << file.camera.cx << "\ncy: " << file.camera.cy
+       << "\ndepth_scale: " << file.depth_scale << '\n';
+  writeText(path, text.str());
+}
+
+}  // namespace depth_fusion

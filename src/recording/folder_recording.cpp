@@ -1,0 +1,24 @@
+#include "recording/folder_recording.h"
+
+#include <filesystem>
+
+#include "depth_fusion/common/error.h"
+
+namespace depth_fusion {
+
+std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOptions& options) {
+  std::error_code unreadable;
+  check(std::filesystem::exists(path, unreadable), path + ": there is no such folder; check the path");
+  check(std::filesystem::is_directory(path, unreadable),
+        path + ": is no recording; give a .bag file or a folder in the TUM or 7-Scenes layout");
+  const bool is_empty = std::filesystem::is_empty(path, unreadable);
+  check(!unreadable, path + ": the folder cannot be read: " + unreadable.message());
+  check(!is_empty, path + ": the folder is empty");
+  if (hasTumLayout(path)) return openTumFolder(path, options);
+  if (hasSevenScenesLayout(path)) return openSevenScenesFolder(path, options);
+  throw Error(
+      path +
+      ": is no recording; expected depth.txt (TUM layout) or frame-000000.depth.png (7-Scenes layout)");
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,32 @@
+// Image files, read and written so that a damaged one is an Error and never a half-filled image.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace depth_fusion {
+
+using Bytes = std::vector<unsigned char>;
+
+// Decodes a PNG, JPEG or other image that OpenCV knows, with its depth and channels unchanged. Throws Error,
+// which begins with `name`, for one that is truncated or corrupt.
+cv::Mat decodeImage(const unsigned char* data, size_t size, const std::string& name);
+
+// The image as RgbdFrame::color has it: CV_8UC3 BGR or CV_8UC1. Throws as decodeImage.
+cv::Mat decodeColorImage(const unsigned char* data, size_t size, const std::string& name);
+
+// A depth image of one channel with 16 bits. Throws Error naming the file.
+cv::Mat readDepthImage(const std::string& path);
+
+// A colour image as decodeColorImage gives it. Throws Error naming the file.
+cv::Mat readColorImage(const std::string& path);
+
+// Width and height from the header of a PNG file, or nothing if there is no such file or it is none.
+std::optional<cv::Size> pngSize(const std::string& path);
+
+// Throws Error naming the file if it cannot be written completely.
+void writePng(const std::string& path, const cv::Mat& image);
+
+}  // namespace depth_fusion

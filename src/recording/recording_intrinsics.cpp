@@ -1,0 +1,49 @@
+#include "recording/recording_intrinsics.h"
+
+#include <sstream>
+
+#include "depth_fusion/common/error.h"
+
+namespace depth_fusion {
+namespace {
+
+std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+void checkSize(cv::Size size, const CameraIntrinsics& camera, const std::string& where,
+               const std::string& source) {
+  check(size.width == camera.width && size.height == camera.height,
+        where + ": the depth is " + sizeText(size.width, size.height) + " but its intrinsics" + source +
+            " are for " + sizeText(camera.width, camera.height) + "; give the right ones with --intrinsics");
+}
+
+}  // namespace
+
+RecordingIntrinsics chooseIntrinsics(const std::optional<CameraIntrinsics>& given,
+                                     const std::optional<RecordingIntrinsics>& own, cv::Size depth_size,
+                                     const std::string& recording) {
+  check(given || own, recording + ": nothing says the intrinsics of the " +
+                          sizeText(depth_size.width, depth_size.height) +
+                          " depth; give them with --intrinsics");
+  RecordingIntrinsics chosen = given ? RecordingIntrinsics{*given, "as given"} : *own;
+  if (chosen.camera.width == 0 && chosen.camera.height == 0) {
+    chosen.camera.width = depth_size.width;
+    chosen.camera.height = depth_size.height;
+  }
+  check(chosen.camera.valid(), recording + ": the intrinsics (" + describe(chosen) +
+                                   ") are not valid; give the right ones with --intrinsics");
+  checkSize(depth_size, chosen.camera, recording, " (" + chosen.source + ")");
+  return chosen;
+}
+
+void checkDepthSize(const cv::Mat& depth, const CameraIntrinsics& camera, const std::string& image) {
+  checkSize(depth.size(), camera, image, "");
+}
+
+std::string describe(const RecordingIntrinsics& intrinsics) {
+  std::ostringstream text;
+  const CameraIntrinsics& camera = intrinsics.camera;
+  text << camera.fx << ' ' << camera.fy << ' ' << camera.cx << ' ' << camera.cy << ", " << intrinsics.source;
+  return text.str();
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,152 @@
+// Recordings in the layout of the 7-Scenes data set.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "depth_fusion/common/error.h"
+#include "recording/folder_recording.h"
+#include "recording/image_file.h"
+#include "recording/recording_intrinsics.h"
+#include "recording/text_file.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr CameraIntrinsics kDataSetDefault = {640, 480, 585.0, 585.0, 320.0, 240.0};
+constexpr double kFrameRate_hz = 30.0;
+constexpr double kDepthUnit_m = 0.001;
+constexpr int kNoDepth = 65535;
+constexpr char kIntrinsicsFile[] = "/camera-intrinsics.txt";
+
+struct FrameFiles {
+  std::string depth;
+  std::string color;  // empty if there is none
+  std::string pose;   // empty if there is none
+};
+
+// The number in "frame-NUMBER" and what follows it, or nothing for another name.
+std::optional<std::pair<long, std::string>> splitName(const std::string& name) {
+  const std::string prefix = "frame-";
+  const size_t digits_end = name.find_first_not_of("0123456789", prefix.size());
+  if (name.compare(0, prefix.size(), prefix) != 0 || digits_end == std::string::npos) return std::nullopt;
+  const size_t digit_count = digits_end - prefix.size();
+  if (digit_count == 0 || digit_count > 9) return std::nullopt;
+  return std::make_pair(std::stol(name.substr(prefix.size(), digit_count)), name.substr(digits_end));
+}
+
+// The frames that have depth, by number.
+std::map<long, FrameFiles> listFrames(const std::string& folder) {
+  std::map<long, FrameFiles> frames;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const auto name = splitName(entry.path().filename().string());
+    if (!name) continue;
+    const auto& [index, ending] = *name;
+    if (ending == ".depth.png") frames[index].depth = entry.path().string();
+    if (ending == ".color.png" || ending == ".color.jpg") frames[index].color = entry.path().string();
+    if (ending == ".pose.txt") frames[index].pose = entry.path().string();
+  }
+  for (auto frame = frames.begin(); frame != frames.end();) {
+    frame = frame->second.depth.empty() ? frames.erase(frame) : std::next(frame);
+  }
+  return frames;
+}
+
+std::vector<double> readMatrix(const std::string& path, size_t size) {
+  std::string text;
+  for (const TextLine& line : readTextLines(path)) text += line.text + ' ';
+  const auto numbers = parseNumbers(text);
+  check(numbers && numbers->size() == size * size,
+        path + ": expected a matrix of " + std::to_string(size) + "x" + std::to_string(size) + " numbers");
+  return *numbers;
+}
+
+// Nothing for a pose that the data set marks as unknown (numbers that are not finite).
+std::optional<Pose> readPose(const std::string& path) {
+  constexpr double kRotationTolerance = 1e-2;
+  const std::vector<double> numbers = readMatrix(path, 4);
+  const auto is_finite = [](double number) { return std::isfinite(number); };
+  if (!std::all_of(numbers.begin(), numbers.end(), is_finite)) return std::nullopt;
+  const Eigen::Matrix4d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  check((rotation * rotation.transpose()).isIdentity(kRotationTolerance) && rotation.determinant() > 0.0,
+        path + ": the upper left 3x3 matrix is no rotation");
+  Pose T_W_D = Pose::Identity();
+  T_W_D.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  T_W_D.translation() = matrix.topRightCorner<3, 1>();
+  return T_W_D;
+}
+
+std::optional<RecordingIntrinsics> readIntrinsics(const std::string& folder, cv::Size depth_size) {
+  const std::string path = folder + kIntrinsicsFile;
+  if (std::filesystem::exists(path)) {
+    const std::vector<double> k = readMatrix(path, 3);
+    return RecordingIntrinsics{{depth_size.width, depth_size.height, k[0], k[4], k[2], k[5]},
+                               "from camera-intrinsics.txt"};
+  }
+  if (depth_size != cv::Size(kDataSetDefault.width, kDataSetDefault.height)) return std::nullopt;
+  return RecordingIntrinsics{kDataSetDefault, "the 7-Scenes data set's default"};
+}
+
+class SevenScenesRecording : public Recording {
+ public:
+  SevenScenesRecording(const std::string& folder, const RecordingOptions& options)
+      : folder_(folder), frames_(listFrames(folder)), next_(frames_.begin()) {
+    const cv::Size depth_size = firstDepthSize();
+    intrinsics_ =
+        chooseIntrinsics(options.intrinsics, readIntrinsics(folder, depth_size), depth_size, folder);
+  }
+
+  std::optional<RgbdFrame> next() override {
+    if (next_ == frames_.end()) return std::nullopt;
+    const auto& [index, files] = *next_++;
+    RgbdFrame frame;
+    frame.stamp_s = static_cast<double>(index) / kFrameRate_hz;
+    frame.depth = readDepthImage(files.depth);
+    frame.depth.setTo(0, frame.depth == kNoDepth);
+    frame.depth_unit_m = kDepthUnit_m;
+    frame.intrinsics = intrinsics_.camera;
+    checkDepthSize(frame.depth, frame.intrinsics, files.depth);
+    if (!files.color.empty()) frame.color = readColorImage(files.color);
+    if (!files.pose.empty()) frame.T_W_D = readPose(files.pose);
+    return frame;
+  }
+
+  size_t frameCount() const override { return frames_.size(); }
+
+  std::string description() const override {
+    return "7-Scenes layout, " + folder_ + ": " + std::to_string(frames_.size()) + " depth images, " +
+           std::to_string(count(&FrameFiles::color)) + " colour images, " +
+           std::to_string(count(&FrameFiles::pose)) + " poses, intrinsics " + describe(intrinsics_);
+  }
+
+ private:
+  cv::Size firstDepthSize() const {
+    for (const auto& [index, files] : frames_) {
+      if (const auto size = pngSize(files.depth)) return *size;
+    }
+    throw Error(folder_ + ": none of its depth images is a PNG that can be read; the first is " +
+                frames_.begin()->second.depth);
+  }
+
+  size_t count(std::string FrameFiles::*file) const {
+    return std::count_if(frames_.begin(), frames_.end(),
+                         [&](const auto& f) { return !(f.second.*file).empty(); });
+  }
+
+  std::string folder_;
+  std::map<long, FrameFiles> frames_;
+  std::map<long, FrameFiles>::const_iterator next_;
+  RecordingIntrinsics intrinsics_;
+};
+
+}  // namespace
+
+bool hasSevenScenesLayout(const std::string& folder) { return !listFrames(folder).empty(); }
+
+std::unique_ptr<Recording> openSevenScenesFolder(const std::string& folder, const RecordingOptions& options) {
+  return std::make_unique<SevenScenesRecording>(folder, options);
+}
+
+}  // namespace depth_fusion

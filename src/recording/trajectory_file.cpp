@@ -1,0 +1,70 @@
+#include "depth_fusion/recording/trajectory_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "depth_fusion/common/error.h"
+#include "recording/text_file.h"
+
+namespace depth_fusion {
+namespace {
+
+bool earlier(const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; }
+
+StampedPose parsePose(const TextLine& line) {
+  constexpr double kNormTolerance = 0.1;
+  const auto numbers = parseNumbers(line.text);
+  check(numbers && numbers->size() == 8,
+        line.where + ": '" + line.text + "' is not a pose; expected 'stamp tx ty tz qx qy qz qw'");
+  const std::vector<double>& v = *numbers;
+  check(std::all_of(v.begin(), v.end(), [](double number) { return std::isfinite(number); }),
+        line.where + ": the pose holds a number that is not finite; remove the line");
+  const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
+  check(std::abs(rotation.norm() - 1.0) < kNormTolerance,
+        line.where + ": the quaternion does not have length 1; expected 'stamp tx ty tz qx qy qz qw'");
+  StampedPose pose;
+  pose.stamp_s = v[0];
+  pose.T_W_D.linear() = rotation.normalized().toRotationMatrix();
+  pose.T_W_D.translation() << v[1], v[2], v[3];
+  return pose;
+}
+
+std::string poseText(const StampedPose& pose) {
+  const Eigen::Vector3d p_W = pose.T_W_D.translation();
+  const Eigen::Quaterniond q(pose.T_W_D.linear());
+  char text[512];
+  std::snprintf(text, sizeof(text), " %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", p_W.x(), p_W.y(), p_W.z(), q.x(),
+                q.y(), q.z(), q.w());
+  return stampText(pose.stamp_s) + text;
+}
+
+}  // namespace
+
+Trajectory readTrajectory(const std::string& path) {
+  Trajectory trajectory;
+  for (const TextLine& line : readTextLines(path)) trajectory.push_back(parsePose(line));
+  check(!trajectory.empty(), path + ": holds no pose; expected lines 'stamp tx ty tz qx qy qz qw'");
+  std::stable_sort(trajectory.begin(), trajectory.end(), earlier);
+  return trajectory;
+}
+
+void writeTrajectory(const std::string& path, const Trajectory& trajectory) {
+  std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+  for (const StampedPose& pose : trajectory) text += poseText(pose);
+  writeText(path, text);
+}
+
+std::optional<Pose> poseAt(const Trajectory& trajectory, double stamp_s, double max_gap_s) {
+  StampedPose wanted;
+  wanted.stamp_s = stamp_s;
+  const auto after = std::lower_bound(trajectory.begin(), trajectory.end(), wanted, earlier);
+  if (after == trajectory.end()) return std::nullopt;
+  if (after->stamp_s == stamp_s) return after->T_W_D;
+  if (after == trajectory.begin()) return std::nullopt;
+  const auto before = std::prev(after);
+  if (after->stamp_s - stamp_s > max_gap_s || stamp_s - before->stamp_s > max_gap_s) return std::nullopt;
+  return interpolate(*before, *after, stamp_s);
+}
+
+}  // namespace depth_fusion
