@@ -5,7 +5,7 @@
 //   slots          slot a request
 #include "shared/block_map.h"
 
-__kernel void assign_blocks(__global int *offsets, __global int4 *block_indices, __global uchar *block_states,
+__kernel void assign_blocks(__global int *offsets, __global int4 *block_indices, __global int *block_states,
                             __global const int4 *requests, __global const int *slots, int count, GridArgs grid) {
   const int i = get_global_id(0);
   if (i >= count) return;

@@ -9,11 +9,15 @@
 #define BLOCK_EMPTY (-1)       // no memory allocated
 #define BLOCK_REQUESTED (-2)   // claimed by block selection, to be allocated by the host
 
-// Bits of a block's state byte, written by TSDF fusion.
+// Bits of a block's state, written by TSDF fusion.
 #define BLOCK_HAS_DATA 1       // some voxel is not chi
 #define BLOCK_NEAR_SURFACE 2   // some voxel lies within a voxel's diagonal of the surface
 
-// A pinhole camera and its planar images: `pitch` elements a row, a multiple of 16.
+// Images are planar, IMAGE_GUARD elements, then rows of `pitch` elements, then IMAGE_GUARD elements. Guards and the
+// columns from width on, 16 at least, hold zeros: vectors may be loaded up to 16 elements beside the image.
+#define IMAGE_GUARD 16
+
+// A pinhole camera and the layout of its images.
 typedef struct {
   float fx, fy, cx, cy;
   int width, height, pitch;
@@ -34,5 +38,49 @@ typedef struct {
   int origin[3];          // first block of the window
   int wrapped_origin[3];  // origin modulo blocks_per_axis
 } GridArgs;
+
+// How depth images become clean depth.
+typedef struct {
+  float unit_m;                  // metres a unit of the input
+  float min_range_m, max_range_m;
+} RangeArgs;
+
+// Bilateral filter of radius 2: weights of columns and rows 0, 1 and 2 away, and the depth difference, in standard
+// deviations of the sensor's noise, at which a neighbour counts no more.
+typedef struct {
+  float spatial_weights[3];
+  float cutoff_sigmas;
+} BilateralArgs;
+
+// Where and how densely block selection samples the depth image.
+typedef struct {
+  int stride_px;
+  int band_samples;  // points along the ray from -truncation to +truncation, both included
+  int capacity;      // of the list of requests
+} SelectionArgs;
+
+// Weighted fusion (Algorithm 2 of the paper).
+typedef struct {
+  float weight_at_1m;  // of a measurement at 1 m; falls with the square of the depth
+  float min_weight, max_measurement_weight;
+  float max_weight;    // W_max
+  int frame;           // number of the frame, for the rounding's dither
+} FusionArgs;
+
+// Projective point-to-plane matching.
+typedef struct {
+  float max_distance_m;
+  float min_normal_cosine;
+  int source_plane, model_plane;  // elements from one component of the normals to the next
+} MatchingArgs;
+
+// Sums of the ICP system: the upper triangle of J^T w J row by row, J^T w r, w r^2, the number of inliers, and the
+// number of source points.
+#define ICP_SUMS 30
+
+// The sensor's axial noise, one standard deviation in metres (Nguyen et al. 2012): a + b (z - c)^2.
+#define SENSOR_SIGMA_A 0.0012f
+#define SENSOR_SIGMA_B 0.0019f
+#define SENSOR_SIGMA_C 0.4f
 
 #endif

@@ -7,7 +7,12 @@
 
 namespace depth_fusion {
 
-inline int pitchOf(int width) { return (width + 15) / 16 * 16; }
+inline int pitchOf(int width) { return (width + 15) / 16 * 16 + IMAGE_GUARD; }
+
+// Elements of one plane of an image.
+inline size_t planeElements(const CameraIntrinsics& camera) {
+  return static_cast<size_t>(pitchOf(camera.width)) * camera.height + 2 * IMAGE_GUARD;
+}
 
 inline CameraArgs toArgs(const CameraIntrinsics& camera) {
   return {static_cast<float>(camera.fx), static_cast<float>(camera.fy), static_cast<float>(camera.cx),

@@ -69,12 +69,13 @@ BlockSparseMap::BlockSparseMap(ComputeContext& compute, const MapParameters& par
                        cube(parameters_.blocks_per_axis));
   check(capacity_ > 0, "map/pool_mib holds not even one block");
   const size_t limit = compute.impl().device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  check(capacity_ * block_bytes < size_t{1} << 31, "map/pool_mib must be below 2048");
   check(capacity_ * block_bytes <= limit, "map/pool_mib is over the device's largest buffer, " +
                                               std::to_string(limit >> 20) + " MiB");
   offsets_ = DeviceBuffer(compute, 4 * cube(parameters_.blocks_per_axis), "the offsets of map/blocks_per_axis");
   voxels_ = DeviceBuffer(compute, capacity_ * block_bytes, "the voxels of map/pool_mib");
   block_indices_ = DeviceBuffer(compute, capacity_ * sizeof(Request), "the block indices of the map");
-  block_states_ = DeviceBuffer(compute, capacity_, "the block states of the map");
+  block_states_ = DeviceBuffer(compute, capacity_ * sizeof(int), "the block states of the map");
   request_transfer_ = DeviceBuffer(compute, kTransferBlocks * sizeof(Request), "block requests");
   slot_transfer_ = DeviceBuffer(compute, kTransferBlocks * sizeof(int), "block slots");
   kernels_ = std::make_unique<Kernels>(compute, blockSizeOption(parameters_));

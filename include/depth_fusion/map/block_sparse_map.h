@@ -70,7 +70,7 @@ class BlockSparseMap {
   DeviceBuffer& voxels() { return voxels_; }
   // Four ints a slot: block index x, y, z, and 1 if in use, else 0.
   DeviceBuffer& blockIndices() { return block_indices_; }
-  // A byte a slot: bits BLOCK_HAS_DATA, BLOCK_NEAR_SURFACE.
+  // An int a slot: bits BLOCK_HAS_DATA, BLOCK_NEAR_SURFACE.
   DeviceBuffer& blockStates() { return block_states_; }
 
  private:

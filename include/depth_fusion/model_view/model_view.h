@@ -1,0 +1,39 @@
+// Model view: depth and normals of the map as a camera sees it (the paper's section "Scene Rendering").
+#pragma once
+
+#include <memory>
+
+#include "depth_fusion/common/stage_timers.h"
+#include "depth_fusion/geometry/pose.h"
+#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/preprocessing/depth_preprocessor.h"
+
+namespace depth_fusion {
+
+// On the device (image layout: kernels/shared/types.h).
+struct ModelView {
+  CameraIntrinsics camera;
+  Pose T_W_D = Pose::Identity();
+  DeviceBuffer depth;    // metres, 0 = no surface
+  DeviceBuffer normals;  // three planes: unit normals towards free space in frame D, 0 = no surface
+};
+
+class ModelViewRenderer {
+ public:
+  ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera);
+  ~ModelViewRenderer();
+
+  // Casts rays through the map between min_range_m and max_range_m. The result stays valid until the next call.
+  const ModelView& render(const Pose& T_W_D, float min_range_m, float max_range_m, StageTimers& timers);
+
+ private:
+  class Kernels;
+
+  ComputeContext& compute_;
+  BlockSparseMap& map_;
+  ModelView view_;
+  DeviceBuffer nearest_, farthest_, coarse_;
+  std::unique_ptr<Kernels> kernels_;
+};
+
+}  // namespace depth_fusion

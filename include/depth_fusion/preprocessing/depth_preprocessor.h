@@ -1,0 +1,57 @@
+// Depth preprocessing: metres, bilateral filter, pyramid, normals.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "depth_fusion/common/parameters.h"
+#include "depth_fusion/compute/compute_context.h"
+#include "depth_fusion/compute/device_buffer.h"
+#include "depth_fusion/recording/rgbd_frame.h"
+
+namespace depth_fusion {
+
+struct PreprocessingParameters {
+  float min_range_m = 0.3f;
+  float max_range_m = 5.0f;
+  float bilateral_sigma_px = 1.5f;
+  float bilateral_cutoff_sigmas = 3.0f;
+  float max_relative_step = 0.05f;
+
+  ParameterTable table();
+};
+
+// A level of the pyramid, on the device (image layout: kernels/shared/types.h).
+struct DepthLevel {
+  CameraIntrinsics camera;
+  DeviceBuffer depth;    // metres, 0 = none
+  DeviceBuffer normals;  // three planes: unit normals towards the camera in frame D, 0 = none
+};
+
+struct DepthFrame {
+  DeviceBuffer raw_depth;          // metres in range, unfiltered, 0 = none; camera of levels[0]
+  DeviceBuffer max_tiles;          // the largest raw depth of each 16x16 tile, row by row
+  std::vector<DepthLevel> levels;  // filtered; full size first, each half the size of the one before
+};
+
+class DepthPreprocessor {
+ public:
+  static constexpr int kLevels = 3;
+
+  DepthPreprocessor(ComputeContext& compute, const PreprocessingParameters& parameters,
+                    const CameraIntrinsics& camera);
+  ~DepthPreprocessor();
+
+  // The result stays valid until the next call. Throws Error if the depth's type or size is not the expected.
+  const DepthFrame& process(const RgbdFrame& frame);
+
+ private:
+  struct Kernels;
+
+  PreprocessingParameters parameters_;
+  DeviceBuffer input_;
+  DepthFrame result_;
+  std::unique_ptr<Kernels> kernels_;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,49 @@
+// TSDF fusion: block selection and integration of one depth frame at a known pose.
+#pragma once
+
+#include <memory>
+
+#include "depth_fusion/common/parameters.h"
+#include "depth_fusion/common/stage_timers.h"
+#include "depth_fusion/geometry/pose.h"
+#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/preprocessing/depth_preprocessor.h"
+
+namespace depth_fusion {
+
+struct FusionParameters {
+  float weight_at_1m = 4.0f;
+  float max_weight = 255.0f;
+
+  ParameterTable table();
+};
+
+struct FusionResult {
+  size_t blocks_requested = 0;
+  size_t blocks_allocated = 0;  // less than requested: the pool is full, and the frame fused what fits
+  size_t blocks_updated = 0;
+  size_t blocks_released = 0;
+};
+
+class TsdfFusion {
+ public:
+  TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const FusionParameters& parameters);
+  ~TsdfFusion();
+
+  // Fuses the raw depth, seen from T_W_D, into the map; allocates the blocks it needs and releases those left empty.
+  FusionResult integrate(const DepthFrame& frame, const Pose& T_W_D, StageTimers& timers);
+
+ private:
+  class Kernels;
+
+  void allocateBlocks(const DepthFrame& frame, const Pose& T_W_D, FusionResult& result);
+
+  ComputeContext& compute_;
+  BlockSparseMap& map_;
+  FusionParameters parameters_;
+  DeviceBuffer requests_, visible_, empty_, count_;
+  std::unique_ptr<Kernels> kernels_;
+  int frame_number_ = 0;
+};
+
+}  // namespace depth_fusion

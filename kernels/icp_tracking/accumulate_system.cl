@@ -1,0 +1,85 @@
+// One ICP iteration: matching, rejection and the first reduction of the point-to-plane system (the paper's section
+// "Registration"). A work-group takes one row of the source; its sums go to partial_sums[row * ICP_SUMS + i].
+//   source_*  depth and normals of the current frame, camera `source`
+//   model_*   depth and normals of the model view, camera `model`
+// Residual r = n . (T p - q); Jacobian with respect to the twist (rotation, translation) applied on the left of T:
+// J = [(T p) x n, n].
+#include "shared/image.h"
+#ifndef GROUP_SIZE
+#define GROUP_SIZE 1
+#endif
+
+__kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate_system(
+    __global const float *source_depth, __global const float *source_normals, __global const float *model_depth,
+    __global const float *model_normals, __global float *partial_sums, CameraArgs source, CameraArgs model,
+    TransformArgs T_M_D, MatchingArgs args) {
+  const int row = get_group_id(0);
+  const int item = get_local_id(0);
+  vfloat sums[ICP_SUMS];
+  for (int i = 0; i < ICP_SUMS; ++i) sums[i] = 0.0f;
+
+  const float ray_y = (row - source.cy) / source.fy;
+  for (int x = item * SIMD_WIDTH; x < source.width; x += GROUP_SIZE * SIMD_WIDTH) {
+    const int index = pixel_index(x, row, source);
+    const vfloat depth = VLOAD(source_depth + index);
+    const vfloat sx = VLOAD(source_normals + index);
+    const vfloat sy = VLOAD(source_normals + index + args.source_plane);
+    const vfloat sz = VLOAD(source_normals + index + 2 * args.source_plane);
+    vint inlier = (depth > 0.0f) & (sz != 0.0f);
+    if (!ANY(inlier)) continue;
+    sums[29] += select((vfloat)(0.0f), (vfloat)(1.0f), inlier);
+
+    const vfloat ray_x = (TO_VFLOAT(x + LANE_INDICES) - source.cx) / source.fx;
+    const vfloat px = rotated(T_M_D, 0, ray_x, ray_y, 1.0f) * depth + T_M_D.translation[0];
+    const vfloat py = rotated(T_M_D, 1, ray_x, ray_y, 1.0f) * depth + T_M_D.translation[1];
+    const vfloat pz = rotated(T_M_D, 2, ray_x, ray_y, 1.0f) * depth + T_M_D.translation[2];
+    const vfloat per_z = 1.0f / pz;
+    const vint u = TO_VINT(floor(model.fx * px * per_z + (model.cx + 0.5f)));
+    const vint v = TO_VINT(floor(model.fy * py * per_z + (model.cy + 0.5f)));
+    inlier = inlier & (pz > 0.0f) & (u >= 0) & (u < model.width) & (v >= 0) & (v < model.height);
+    if (!ANY(inlier)) continue;
+
+    const vint match = select((vint)(0), pixel_indices(u, v, model), inlier);
+    const vfloat qz = GATHER(vfloat, model_depth, match);
+    const vfloat nx = GATHER(vfloat, model_normals, match);
+    const vfloat ny = GATHER(vfloat, (model_normals + args.model_plane), match);
+    const vfloat nz = GATHER(vfloat, (model_normals + 2 * args.model_plane), match);
+    const vfloat dx = px - (TO_VFLOAT(u) - model.cx) / model.fx * qz;
+    const vfloat dy = py - (TO_VFLOAT(v) - model.cy) / model.fy * qz;
+    const vfloat dz = pz - qz;
+    const vfloat cosine = nx * rotated(T_M_D, 0, sx, sy, sz) + ny * rotated(T_M_D, 1, sx, sy, sz) +
+                          nz * rotated(T_M_D, 2, sx, sy, sz);
+    inlier = inlier & (qz > 0.0f) & (dx * dx + dy * dy + dz * dz < args.max_distance_m * args.max_distance_m) &
+             (cosine > args.min_normal_cosine);
+    if (!ANY(inlier)) continue;
+
+    const vfloat sigma = sensor_sigma_m(depth) / SENSOR_SIGMA_A;
+    const vfloat weight = select((vfloat)(0.0f), 1.0f / (sigma * sigma), inlier);
+    const vfloat residual = nx * dx + ny * dy + nz * dz;
+    const vfloat jacobian[6] = {py * nz - pz * ny, pz * nx - px * nz, px * ny - py * nx, nx, ny, nz};
+    int k = 0;
+    for (int i = 0; i < 6; ++i) {
+      const vfloat weighted = select((vfloat)(0.0f), weight * jacobian[i], inlier);
+      for (int j = i; j < 6; ++j) sums[k++] += weighted * jacobian[j];
+      sums[21 + i] += weighted * residual;
+    }
+    sums[27] += select((vfloat)(0.0f), weight * residual * residual, inlier);
+    sums[28] += select((vfloat)(0.0f), (vfloat)(1.0f), inlier);
+  }
+
+#if GROUP_SIZE == 1
+  for (int i = 0; i < ICP_SUMS; ++i) partial_sums[row * ICP_SUMS + i] = SUM_LANES(sums[i]);
+#else
+  __local float shared_sums[GROUP_SIZE];
+  for (int i = 0; i < ICP_SUMS; ++i) {
+    shared_sums[item] = SUM_LANES(sums[i]);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (int half_size = GROUP_SIZE / 2; half_size > 0; half_size /= 2) {
+      if (item < half_size) shared_sums[item] += shared_sums[item + half_size];
+      barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    if (item == 0) partial_sums[row * ICP_SUMS + i] = shared_sums[0];
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+#endif
+}

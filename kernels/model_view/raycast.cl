@@ -1,0 +1,196 @@
+// Ray casting of the block-sparse map in two stages, as the paper has it: raycast_coarse finds the voxel where a ray
+// first goes from positive to negative distance, raycast_fine the surface in it by trilinear interpolation, and its
+// normal. Rays are parametrised by depth t (z in frame D): p(t) = origin + t * direction, in voxels.
+// A work-item casts SIMD_WIDTH rays of a row.
+#include "shared/block_map.h"
+#include "shared/image.h"
+#define RANGE_TILE 8
+#define MAX_STEPS 512
+
+typedef struct {
+  float origin_x, origin_y, origin_z;
+  vfloat direction_x, direction_y, direction_z;
+} Rays;
+
+inline Rays make_rays(vint u, int v, const CameraArgs camera, const TransformArgs T_W_D, const GridArgs grid) {
+  const float per_voxel = 1.0f / grid.voxel_size_m;
+  const vfloat x = (TO_VFLOAT(u) - camera.cx) * (per_voxel / camera.fx);
+  const vfloat y = ((float)v - camera.cy) * (per_voxel / camera.fy);
+  const vfloat z = per_voxel;
+  Rays rays;
+  rays.origin_x = T_W_D.translation[0] * per_voxel;
+  rays.origin_y = T_W_D.translation[1] * per_voxel;
+  rays.origin_z = T_W_D.translation[2] * per_voxel;
+  rays.direction_x = rotated(T_W_D, 0, x, y, z);
+  rays.direction_y = rotated(T_W_D, 1, x, y, z);
+  rays.direction_z = rotated(T_W_D, 2, x, y, z);
+  return rays;
+}
+
+// Depth t at which a ray leaves the block along one axis; blocks hold the points that round to their voxels.
+inline vfloat exit_depth(vint block, float origin, vfloat direction) {
+  const vint next = select(block, block + 1, direction > 0.0f);
+  const vfloat boundary = TO_VFLOAT(next * BLOCK_SIZE) - 0.5f;
+  const vfloat safe = select(direction, (vfloat)(1e-6f), fabs(direction) < 1e-6f);
+  return select((boundary - origin) / safe, (vfloat)(MAXFLOAT), fabs(direction) < 1e-6f);
+}
+
+// coarse: depth of the hit in metres a pixel, 0 = none
+__kernel void raycast_coarse(__global const int *offsets, __global const char *voxels, __global const float *nearest,
+                             __global const float *farthest, __global float *coarse, CameraArgs camera,
+                             TransformArgs T_W_D, GridArgs grid) {
+  const int x = get_global_id(0) * SIMD_WIDTH;
+  const int y = get_global_id(1);
+  if (x >= camera.width) return;
+  const vint u = x + LANE_INDICES;
+  const Rays rays = make_rays(u, y, camera, T_W_D, grid);
+  const int tile_row = y / RANGE_TILE * ((camera.width + RANGE_TILE - 1) / RANGE_TILE);
+  const vint tile = tile_row + min(u, (vint)(camera.width - 1)) / RANGE_TILE;
+  const vfloat end = GATHER(vfloat, farthest, tile);
+  vfloat t = GATHER(vfloat, nearest, tile);
+  const vfloat t_per_voxel = rsqrt(rays.direction_x * rays.direction_x + rays.direction_y * rays.direction_y +
+                                   rays.direction_z * rays.direction_z);
+  const float voxels_per_step = grid.truncation_m / (grid.voxel_size_m * TSDF_MAX);
+  const float chi_step_voxels = fmax(1.0f, 0.5f * grid.truncation_m / grid.voxel_size_m);
+
+  vfloat hit_t = 0.0f;
+  vfloat previous_t = t;
+  vint previous = TSDF_CHI;
+  vint active = (t < end) & (u < camera.width);
+  for (int i = 0; i < MAX_STEPS && ANY(active); ++i) {
+    const vint vx = TO_VINT(floor(rays.origin_x + t * rays.direction_x + 0.5f));
+    const vint vy = TO_VINT(floor(rays.origin_y + t * rays.direction_y + 0.5f));
+    const vint vz = TO_VINT(floor(rays.origin_z + t * rays.direction_z + 0.5f));
+    const vint bx = vx >> BLOCK_SIZE_LOG2;
+    const vint by = vy >> BLOCK_SIZE_LOG2;
+    const vint bz = vz >> BLOCK_SIZE_LOG2;
+    const vint address = select((vint)(-1), block_addresses(bx, by, bz, grid), active);
+    const vint slot = select((vint)(-1), GATHER(vint, offsets, max(address, (vint)(0))), address >= 0);
+    const vint allocated = slot >= 0;
+    const vint in_block = (vx & (BLOCK_SIZE - 1)) + ((vy & (BLOCK_SIZE - 1)) << BLOCK_SIZE_LOG2) +
+                          ((vz & (BLOCK_SIZE - 1)) << (2 * BLOCK_SIZE_LOG2));
+    const vint voxel = select((vint)(0), slot * (2 * BLOCK_VOXELS) + in_block, allocated);
+    const vint distance = select((vint)(TSDF_CHI), TO_VINT(GATHER(vchar, voxels, voxel)), allocated);
+    const vint known = distance != TSDF_CHI;
+
+    const vint crossed = active & known & (distance <= 0) & (previous > 0);
+    const vfloat fraction = TO_VFLOAT(previous) / TO_VFLOAT(max(previous - distance, (vint)(1)));
+    hit_t = select(hit_t, previous_t + (t - previous_t) * fraction, crossed);
+    active = active & NOT(crossed);
+
+    const vfloat near_step = max(0.8f * voxels_per_step * fabs(TO_VFLOAT(distance)), (vfloat)(1.0f));
+    const vfloat step = select((vfloat)(chi_step_voxels), near_step, known) * t_per_voxel;
+    vfloat next_t = t + step;
+    if (ANY(active & NOT(allocated))) {
+      const vfloat exit = min(exit_depth(bx, rays.origin_x, rays.direction_x),
+                              min(exit_depth(by, rays.origin_y, rays.direction_y),
+                                  exit_depth(bz, rays.origin_z, rays.direction_z)));
+      next_t = select(max(exit, t) + 0.05f * t_per_voxel, next_t, allocated);
+    }
+    previous_t = t;
+    previous = distance;
+    t = next_t;
+    active = active & (t < end);
+  }
+  VSTORE(hit_t, coarse + pixel_index(x, y, camera));
+}
+
+// Offsets, along one axis, of the two voxels around a coordinate: of their blocks in the window (or outside), and in
+// their blocks.
+typedef struct {
+  vint block[2], in_block[2], inside[2];
+} AxisNeighbours;
+
+inline AxisNeighbours axis_neighbours(vint voxel, int axis, const GridArgs grid) {
+  AxisNeighbours result;
+  for (int i = 0; i < 2; ++i) {
+    const vint v = voxel + i;
+    const vint in_window = (v >> BLOCK_SIZE_LOG2) - grid.origin[axis];
+    const vint wrapped = in_window + grid.wrapped_origin[axis];
+    result.inside[i] = (in_window >= 0) & (in_window < grid.blocks_per_axis);
+    result.block[i] = select(wrapped, wrapped - grid.blocks_per_axis, wrapped >= grid.blocks_per_axis);
+    result.in_block[i] = v & (BLOCK_SIZE - 1);
+  }
+  return result;
+}
+
+// Trilinear interpolation of the distance at p, in steps of the distance byte, and its gradient in steps a voxel.
+// known: 0 where one of the eight voxels is chi.
+typedef struct {
+  vfloat value, gradient_x, gradient_y, gradient_z;
+  vint known;
+} Sample;
+
+inline Sample interpolate(vfloat px, vfloat py, vfloat pz, vint active, __global const int *offsets,
+                          __global const char *voxels, const GridArgs grid) {
+  const vfloat floor_x = floor(px), floor_y = floor(py), floor_z = floor(pz);
+  const AxisNeighbours nx = axis_neighbours(TO_VINT(floor_x), 0, grid);
+  const AxisNeighbours ny = axis_neighbours(TO_VINT(floor_y), 1, grid);
+  const AxisNeighbours nz = axis_neighbours(TO_VINT(floor_z), 2, grid);
+  const int n = grid.blocks_per_axis;
+  Sample sample;
+  sample.known = active;
+  vfloat corner[8];
+  for (int i = 0; i < 8; ++i) {
+    const int cx = i & 1, cy = (i >> 1) & 1, cz = i >> 2;
+    const vint inside = sample.known & nx.inside[cx] & ny.inside[cy] & nz.inside[cz];
+    const vint address = select((vint)(0), nx.block[cx] + n * (ny.block[cy] + n * nz.block[cz]), inside);
+    const vint slot = select((vint)(-1), GATHER(vint, offsets, address), inside);
+    const vint in_block =
+        nx.in_block[cx] + (ny.in_block[cy] << BLOCK_SIZE_LOG2) + (nz.in_block[cz] << (2 * BLOCK_SIZE_LOG2));
+    const vint allocated = slot >= 0;
+    const vint voxel = select((vint)(0), slot * (2 * BLOCK_VOXELS) + in_block, allocated);
+    const vint distance = TO_VINT(GATHER(vchar, voxels, voxel));
+    sample.known = inside & allocated & (distance != TSDF_CHI);
+    corner[i] = TO_VFLOAT(distance);
+  }
+  const vfloat x = px - floor_x, y = py - floor_y, z = pz - floor_z;
+  const vfloat x00 = corner[1] - corner[0], x10 = corner[3] - corner[2];
+  const vfloat x01 = corner[5] - corner[4], x11 = corner[7] - corner[6];
+  const vfloat v00 = corner[0] + x * x00, v10 = corner[2] + x * x10;
+  const vfloat v01 = corner[4] + x * x01, v11 = corner[6] + x * x11;
+  const vfloat v0 = v00 + y * (v10 - v00), v1 = v01 + y * (v11 - v01);
+  const vfloat gx0 = x00 + y * (x10 - x00), gx1 = x01 + y * (x11 - x01);
+  sample.value = v0 + z * (v1 - v0);
+  sample.gradient_x = gx0 + z * (gx1 - gx0);
+  sample.gradient_y = (v10 - v00) + z * ((v11 - v01) - (v10 - v00));
+  sample.gradient_z = v1 - v0;
+  return sample;
+}
+
+// depth: metres, 0 = none; normals: three planes of `plane` elements, unit, towards free space, in frame D
+__kernel void raycast_fine(__global const int *offsets, __global const char *voxels, __global const float *coarse,
+                           __global float *depth, __global float *normals, int plane, CameraArgs camera,
+                           TransformArgs T_W_D, GridArgs grid) {
+  const int x = get_global_id(0) * SIMD_WIDTH;
+  const int y = get_global_id(1);
+  if (x >= camera.width) return;
+  const int index = pixel_index(x, y, camera);
+  const Rays rays = make_rays(x + LANE_INDICES, y, camera, T_W_D, grid);
+  const vfloat t_per_voxel = rsqrt(rays.direction_x * rays.direction_x + rays.direction_y * rays.direction_y +
+                                   rays.direction_z * rays.direction_z);
+  vfloat t = VLOAD(coarse + index);
+  vint known = t > 0.0f;
+  vfloat gx = 0.0f, gy = 0.0f, gz = 0.0f;
+  for (int iteration = 0; iteration < 2 && ANY(known); ++iteration) {
+    const Sample sample =
+        interpolate(rays.origin_x + t * rays.direction_x, rays.origin_y + t * rays.direction_y,
+                    rays.origin_z + t * rays.direction_z, known, offsets, voxels, grid);
+    gx = sample.gradient_x;
+    gy = sample.gradient_y;
+    gz = sample.gradient_z;
+    const vfloat slope = gx * rays.direction_x + gy * rays.direction_y + gz * rays.direction_z;
+    known = sample.known & (slope < 0.0f);
+    const vfloat limit = 1.5f * t_per_voxel;
+    t -= select((vfloat)(0.0f), clamp(sample.value / slope, -limit, limit), known);
+  }
+  const vfloat scale = rsqrt(gx * gx + gy * gy + gz * gz);
+  // frame D: the rotation's transpose
+  const vfloat nx = T_W_D.rotation[0] * gx + T_W_D.rotation[3] * gy + T_W_D.rotation[6] * gz;
+  const vfloat ny = T_W_D.rotation[1] * gx + T_W_D.rotation[4] * gy + T_W_D.rotation[7] * gz;
+  const vfloat nz = T_W_D.rotation[2] * gx + T_W_D.rotation[5] * gy + T_W_D.rotation[8] * gz;
+  VSTORE(select((vfloat)(0.0f), t, known), depth + index);
+  VSTORE(select((vfloat)(0.0f), nx * scale, known), normals + index);
+  VSTORE(select((vfloat)(0.0f), ny * scale, known), normals + index + plane);
+  VSTORE(select((vfloat)(0.0f), nz * scale, known), normals + index + 2 * plane);
+}

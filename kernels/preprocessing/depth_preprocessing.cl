@@ -1,0 +1,127 @@
+// Depth images to clean depth in metres, pyramid and normals. Depth 0 = none. A work-item takes SIMD_WIDTH pixels of a
+// row (depth_to_metres_*, filter_bilateral, compute_normals), one pixel (halve_depth) or one tile (max_tiles).
+#include "shared/image.h"
+#define TILE 16
+
+inline vfloat within_range(vfloat depth_m, vint x, const CameraArgs camera, const RangeArgs range) {
+  const vint good = (depth_m >= range.min_range_m) & (depth_m <= range.max_range_m) & (x < camera.width);
+  return select((vfloat)(0.0f), depth_m, good);
+}
+
+// input: width * height values without padding, and SIMD_WIDTH more of any kind.
+__kernel void depth_to_metres_u16(__global const ushort *input, __global float *depth, CameraArgs camera,
+                                  RangeArgs range) {
+  const int x = get_global_id(0) * SIMD_WIDTH;
+  const int y = get_global_id(1);
+  if (x >= camera.width) return;
+  const vfloat value = TO_VFLOAT(VLOAD(input + y * camera.width + x)) * range.unit_m;
+  VSTORE(within_range(value, x + LANE_INDICES, camera, range), depth + pixel_index(x, y, camera));
+}
+
+__kernel void depth_to_metres_f32(__global const float *input, __global float *depth, CameraArgs camera,
+                                  RangeArgs range) {
+  const int x = get_global_id(0) * SIMD_WIDTH;
+  const int y = get_global_id(1);
+  if (x >= camera.width) return;
+  const vfloat value = VLOAD(input + y * camera.width + x) * range.unit_m;
+  VSTORE(within_range(value, x + LANE_INDICES, camera, range), depth + pixel_index(x, y, camera));
+}
+
+// Averages neighbours in a 5x5 window, weighted by distance in the image and, with Tukey's biweight, in depth.
+__kernel void filter_bilateral(__global const float *depth, __global float *filtered, CameraArgs camera,
+                               BilateralArgs args) {
+  const int x = get_global_id(0) * SIMD_WIDTH;
+  const int y = get_global_id(1);
+  if (x >= camera.width) return;
+  const vfloat centre = VLOAD(depth + pixel_index(x, y, camera));
+  const vfloat cutoff_m = args.cutoff_sigmas * sensor_sigma_m(centre);
+  const vfloat scale = 1.0f / (cutoff_m * cutoff_m);
+  vfloat sum = 0.0f;
+  vfloat weights = 0.0f;
+  for (int dy = max(-2, -y); dy <= min(2, camera.height - 1 - y); ++dy) {
+    __global const float *row = depth + pixel_index(x, y + dy, camera);
+    for (int dx = -2; dx <= 2; ++dx) {
+      const vfloat neighbour = VLOAD(row + dx);
+      const vfloat difference = neighbour - centre;
+      const vfloat similarity = max(1.0f - difference * difference * scale, (vfloat)(0.0f));
+      const vfloat weight = args.spatial_weights[abs(dx)] * args.spatial_weights[abs(dy)] * similarity * similarity;
+      sum += weight * neighbour;
+      weights += weight;
+    }
+  }
+  VSTORE(select((vfloat)(0.0f), sum / weights, centre > 0.0f), filtered + pixel_index(x, y, camera));
+}
+
+// A pixel of the half size image: the mean of those of its 2x2 pixels that lie near the closest one.
+__kernel void halve_depth(__global const float *depth, __global float *half_depth, CameraArgs camera,
+                          CameraArgs half_camera, float cutoff_sigmas) {
+  const int x = get_global_id(0);
+  const int y = get_global_id(1);
+  if (x >= half_camera.width) return;
+  float closest = MAXFLOAT;
+  for (int i = 0; i < 4; ++i) {
+    const float d = depth[pixel_index(2 * x + (i & 1), 2 * y + (i >> 1), camera)];
+    if (d > 0.0f) closest = min(closest, d);
+  }
+  const float beyond = closest - SENSOR_SIGMA_C;
+  const float limit = closest + cutoff_sigmas * (SENSOR_SIGMA_A + SENSOR_SIGMA_B * beyond * beyond);
+  float sum = 0.0f;
+  int count = 0;
+  for (int i = 0; i < 4; ++i) {
+    const float d = depth[pixel_index(2 * x + (i & 1), 2 * y + (i >> 1), camera)];
+    if (d > 0.0f && d <= limit) {
+      sum += d;
+      ++count;
+    }
+  }
+  half_depth[pixel_index(x, y, half_camera)] = count > 0 ? sum / count : 0.0f;
+}
+
+// Unit normals towards the camera from central differences; 0 where a neighbour is missing or the depth jumps.
+//   normals  three planes x, y, z of `plane` elements
+__kernel void compute_normals(__global const float *depth, __global float *normals, CameraArgs camera, int plane,
+                              float max_relative_step) {
+  const int x = get_global_id(0) * SIMD_WIDTH;
+  const int y = get_global_id(1);
+  if (x >= camera.width) return;
+  const int index = pixel_index(x, y, camera);
+  vfloat nx = 0.0f, ny = 0.0f, nz = 0.0f;
+  if (y > 0 && y < camera.height - 1) {
+    const vfloat z = VLOAD(depth + index);
+    const vfloat left = VLOAD(depth + index - 1), right = VLOAD(depth + index + 1);
+    const vfloat above = VLOAD(depth + index - camera.pitch), below = VLOAD(depth + index + camera.pitch);
+    const vfloat limit = max_relative_step * z;
+    const vint good = (z > 0.0f) & (fabs(left - z) < limit) & (fabs(right - z) < limit) &
+                      (fabs(above - z) < limit) & (fabs(below - z) < limit);
+    const vfloat dz_du = 0.5f * (right - left);
+    const vfloat dz_dv = 0.5f * (below - above);
+    const vfloat u = TO_VFLOAT(x + LANE_INDICES) - camera.cx;
+    const float v = (float)y - camera.cy;
+    nx = camera.fx * dz_du;
+    ny = camera.fy * dz_dv;
+    nz = -(z + u * dz_du + v * dz_dv);
+    const vfloat scale = select((vfloat)(0.0f), rsqrt(nx * nx + ny * ny + nz * nz), good);
+    nx = select((vfloat)(0.0f), nx * scale, good);
+    ny = select((vfloat)(0.0f), ny * scale, good);
+    nz = select((vfloat)(0.0f), nz * scale, good);
+  }
+  VSTORE(nx, normals + index);
+  VSTORE(ny, normals + index + plane);
+  VSTORE(nz, normals + index + 2 * plane);
+}
+
+// The largest depth of each 16x16 tile.
+__kernel void max_tiles(__global const float *depth, __global float *tiles, CameraArgs camera, int tile_columns,
+                        int tile_count) {
+  const int tile = get_global_id(0);
+  if (tile >= tile_count) return;
+  const int x = (tile % tile_columns) * TILE;
+  const int y = (tile / tile_columns) * TILE;
+  float16 largest = 0.0f;
+  for (int row = y; row < min(y + TILE, camera.height); ++row) {
+    largest = fmax(largest, vload16(0, depth + pixel_index(x, row, camera)));
+  }
+  const float8 a = fmax(largest.lo, largest.hi);
+  const float4 b = fmax(a.lo, a.hi);
+  tiles[tile] = fmax(fmax(b.x, b.y), fmax(b.z, b.w));
+}

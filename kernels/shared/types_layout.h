@@ -1,0 +1,46 @@
+// Every struct of types.h and its members, for host and kernel to report how they lay them out.
+#ifndef DEPTH_FUSION_SHARED_TYPES_LAYOUT_H
+#define DEPTH_FUSION_SHARED_TYPES_LAYOUT_H
+
+#define FOR_EACH_SHARED_TYPE(STRUCT, MEMBER) \
+  STRUCT(CameraArgs)                         \
+  MEMBER(CameraArgs, fx)                     \
+  MEMBER(CameraArgs, fy)                     \
+  MEMBER(CameraArgs, cx)                     \
+  MEMBER(CameraArgs, cy)                     \
+  MEMBER(CameraArgs, width)                  \
+  MEMBER(CameraArgs, height)                 \
+  MEMBER(CameraArgs, pitch)                  \
+  STRUCT(TransformArgs)                      \
+  MEMBER(TransformArgs, rotation)            \
+  MEMBER(TransformArgs, translation)         \
+  STRUCT(GridArgs)                           \
+  MEMBER(GridArgs, voxel_size_m)             \
+  MEMBER(GridArgs, truncation_m)             \
+  MEMBER(GridArgs, blocks_per_axis)          \
+  MEMBER(GridArgs, origin)                   \
+  MEMBER(GridArgs, wrapped_origin)           \
+  STRUCT(RangeArgs)                          \
+  MEMBER(RangeArgs, unit_m)                  \
+  MEMBER(RangeArgs, min_range_m)             \
+  MEMBER(RangeArgs, max_range_m)             \
+  STRUCT(BilateralArgs)                      \
+  MEMBER(BilateralArgs, spatial_weights)     \
+  MEMBER(BilateralArgs, cutoff_sigmas)       \
+  STRUCT(SelectionArgs)                      \
+  MEMBER(SelectionArgs, stride_px)           \
+  MEMBER(SelectionArgs, band_samples)        \
+  MEMBER(SelectionArgs, capacity)            \
+  STRUCT(FusionArgs)                         \
+  MEMBER(FusionArgs, weight_at_1m)           \
+  MEMBER(FusionArgs, min_weight)             \
+  MEMBER(FusionArgs, max_measurement_weight) \
+  MEMBER(FusionArgs, max_weight)             \
+  MEMBER(FusionArgs, frame)                  \
+  STRUCT(MatchingArgs)                       \
+  MEMBER(MatchingArgs, max_distance_m)       \
+  MEMBER(MatchingArgs, min_normal_cosine)    \
+  MEMBER(MatchingArgs, source_plane)         \
+  MEMBER(MatchingArgs, model_plane)
+
+#endif

@@ -1,0 +1,116 @@
+# Sourced by the scripts: finds the repository (ROOT), installs what is missing, builds in ROOT/build (BUILD).
+
+set -euo pipefail
+
+ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)"
+BUILD="$ROOT/build"
+
+# catkin runs the first python3 on the PATH; only the system's has catkin's modules.
+export PATH="/usr/bin:$PATH"
+unset PYTHONHOME PYTHONPATH
+
+# What the rosdep keys of package.xml do not bring: tools, and a CPU device for OpenCL.
+TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd)
+ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
+# Debian carries ROS 1 itself, under its own names.
+DEBIAN_PACKAGES=(
+  catkin catkin-lint libgtest-dev
+  libroscpp-core-dev librosbag-storage-dev libsensor-msgs-dev libtf2-msgs-dev
+  libeigen3-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev
+  ocl-icd-opencl-dev opencl-headers
+)
+
+say() { echo "== $*" >&2; }
+
+fail() {
+  echo "error: $*" >&2
+  exit 1
+}
+
+as_root() {
+  if [[ $(id -u) -eq 0 ]]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    say "this user is not root and there is no sudo"
+    return 1
+  fi
+}
+
+# The given packages that are not installed, one a line.
+missing_packages() {
+  local installed
+  installed="$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null | sed -n "s/ installed$//p")" || true
+  printf '%s\n' "$@" | grep -vxF "$installed" || true
+}
+
+# A package that cannot be had is no error here: whether the build can do without it, its configuration says.
+install_packages() {
+  local missing
+  mapfile -t missing < <(missing_packages "$@")
+  [[ ${#missing[@]} -gt 0 ]] || return 0
+  say "installing with apt-get (this may take minutes): ${missing[*]}"
+  as_root apt-get update -qq || say "apt-get update failed; going on with the package lists as they are"
+  as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
+    say "could not install all of them; if the build fails, run as root: apt-get install ${missing[*]}"
+}
+
+install_ros_dependencies() {
+  local rosdep_arguments=(--from-paths "$ROOT" --ignore-src --rosdistro "$ROS_DISTRO")
+  if rosdep check "${rosdep_arguments[@]}" >/dev/null 2>&1; then return; fi
+  say "installing the dependencies of package.xml with rosdep"
+  compgen -G '/etc/ros/rosdep/sources.list.d/*.list' >/dev/null || as_root rosdep init || true
+  rosdep update --include-eol-distros --rosdistro "$ROS_DISTRO" >/dev/null || true
+  as_root apt-get update -qq || true
+  rosdep install -y "${rosdep_arguments[@]}" ||
+    say "rosdep could not install all of them; if the build fails, install the dependencies of package.xml by hand"
+}
+
+# Sources the newest ROS 1 below /opt/ros, if there is one.
+source_ros() {
+  local folder found=""
+  for folder in /opt/ros/*; do
+    if [[ -e $folder/setup.bash && -e $folder/share/catkin ]]; then found="$folder"; fi
+  done
+  [[ -n $found ]] || return 1
+  source_environment "$found/setup.bash"
+}
+
+# The set-up files of catkin read variables that are not set, and the arguments of who sources them.
+source_environment() {
+  local file="$1"
+  set --
+  set +u
+  # shellcheck disable=SC1090
+  source "$file"
+  set -u
+}
+
+install_dependencies() {
+  if ! command -v apt-get >/dev/null; then
+    say "no apt-get here; needed are (by Debian's names): ${TOOL_PACKAGES[*]} ${DEBIAN_PACKAGES[*]}"
+    source_ros || true
+  elif source_ros; then
+    install_packages "${TOOL_PACKAGES[@]}" "${ROS_TOOL_PACKAGES[@]}"
+    install_ros_dependencies
+  else
+    install_packages "${TOOL_PACKAGES[@]}" "${DEBIAN_PACKAGES[@]}"
+  fi
+}
+
+# Builds the given CMake targets.
+build() {
+  local log="$BUILD/configure.log"
+  mkdir -p "$BUILD"
+  cmake -S "$ROOT" -B "$BUILD" -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=ON \
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$log" 2>&1 ||
+    { cat "$log" >&2; fail "the build cannot be configured; the reason stands above"; }
+  say "building in $BUILD"
+  cmake --build "$BUILD" --parallel "$(nproc)" --target "$@"
+}
+
+list_apps() { (cd "$ROOT/src/apps" && printf '%s\n' *.cpp | sed 's/\.cpp$//'); }
+
+app_path() { echo "$BUILD/devel/lib/depth_fusion/$1"; }

@@ -1,0 +1,27 @@
+// The 6x6 system of one ICP iteration.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "depth_fusion/geometry/pose.h"
+
+namespace depth_fusion {
+
+// Sum over the inliers of w J^T J x = -w J^T r, with x = (rotation, translation) applied on the left.
+struct IcpSystem {
+  Matrix6d hessian = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  double squared_residuals = 0.0;  // weighted
+  double inliers = 0.0;
+  double source_points = 0.0;
+  double rmse() const;  // metres, weighted
+};
+
+// Adds up the rows' partial sums (ICP_SUMS each), in double and in order, so that the result is repeatable.
+IcpSystem sumRows(const std::vector<float>& partial_sums);
+
+// The twist that solves the system, or nothing if it is not positive definite.
+std::optional<Vector6d> solve(const IcpSystem& system);
+
+}  // namespace depth_fusion

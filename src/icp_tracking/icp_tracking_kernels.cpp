@@ -1,0 +1,23 @@
+#include "icp_tracking/icp_tracking_kernels.h"
+
+#include "geometry/kernel_args.h"
+
+namespace depth_fusion {
+
+IcpTracker::Kernels::Kernels(ComputeContext& compute)
+    : group_size_(compute.device().is_cpu ? 1 : 64),
+      accumulate_(compute, "icp_tracking/accumulate_system.cl", "accumulate_system",
+                  "-DGROUP_SIZE=" + std::to_string(group_size_)) {}
+
+IcpSystem IcpTracker::Kernels::accumulateSystem(const DepthLevel& level, const ModelView& view, const Pose& T_M_D,
+                                                float max_distance_m, float min_normal_cosine,
+                                                DeviceBuffer& partial_sums) {
+  const MatchingArgs args{max_distance_m, min_normal_cosine, static_cast<int>(planeElements(level.camera)),
+                          static_cast<int>(planeElements(view.camera))};
+  const size_t rows = level.camera.height;
+  accumulate_.runGroups(rows, group_size_, level.depth, level.normals, view.depth, view.normals, partial_sums,
+                        toArgs(level.camera), toArgs(view.camera), toArgs(T_M_D), args);
+  return sumRows(partial_sums.read<float>(rows * ICP_SUMS));
+}
+
+}  // namespace depth_fusion

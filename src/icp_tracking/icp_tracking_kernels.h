@@ -1,0 +1,24 @@
+// Typed launches of kernels/icp_tracking/*.cl.
+#pragma once
+
+#include "compute/kernel.h"
+#include "depth_fusion/icp_tracking/icp_tracker.h"
+#include "icp_tracking/icp_system.h"
+#include "shared/types.h"
+
+namespace depth_fusion {
+
+class IcpTracker::Kernels {
+ public:
+  explicit Kernels(ComputeContext& compute);
+
+  // The system of matching `level` at T_M_D against the view, M being the view's camera frame.
+  IcpSystem accumulateSystem(const DepthLevel& level, const ModelView& view, const Pose& T_M_D, float max_distance_m,
+                             float min_normal_cosine, DeviceBuffer& partial_sums);
+
+ private:
+  size_t group_size_;
+  Kernel accumulate_;
+};
+
+}  // namespace depth_fusion

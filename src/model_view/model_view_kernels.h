@@ -1,0 +1,28 @@
+// Typed launches of kernels/model_view/*.cl.
+#pragma once
+
+#include "compute/kernel.h"
+#include "depth_fusion/model_view/model_view.h"
+
+namespace depth_fusion {
+
+class ModelViewRenderer::Kernels {
+ public:
+  static constexpr int kRangeTile = 8;
+
+  Kernels(ComputeContext& compute, const MapParameters& map);
+
+  void splatBlockRanges(BlockSparseMap& map, DeviceBuffer& nearest, DeviceBuffer& farthest, const ModelView& view,
+                        float min_range_m, float max_range_m);
+  void raycastCoarse(BlockSparseMap& map, const DeviceBuffer& nearest, const DeviceBuffer& farthest,
+                     DeviceBuffer& coarse, const ModelView& view);
+  void raycastFine(BlockSparseMap& map, const DeviceBuffer& coarse, ModelView& view);
+
+ private:
+  size_t columns(const CameraIntrinsics& camera) const;
+
+  int simd_width_;
+  Kernel ranges_, coarse_, fine_;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,80 @@
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
+
+#include <algorithm>
+
+namespace depth_fusion {
+namespace {
+
+// The window's middle lies ahead of the camera, where the scene is, but keeps the camera well inside.
+Eigen::Vector3d windowCentre(const MapParameters& map, const Pose& T_W_D) {
+  const double window_m = static_cast<double>(map.voxel_size_m) * map.block_size * map.blocks_per_axis;
+  const double ahead_m = std::min(0.35 * window_m, 2.0);
+  return T_W_D * Eigen::Vector3d(0.0, 0.0, ahead_m);
+}
+
+}  // namespace
+
+ParameterTable PipelineParameters::table() {
+  ParameterTable all;
+  for (const auto& [stage, table] :
+       {std::make_pair("map", map.table()), std::make_pair("preprocessing", preprocessing.table()),
+        std::make_pair("icp_tracking", icp_tracking.table()), std::make_pair("tsdf_fusion", tsdf_fusion.table()),
+        std::make_pair("surface_mesh", surface_mesh.table())}) {
+    const ParameterTable rows = withPrefix(stage, table);
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+  return all;
+}
+
+ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
+                                               const CameraIntrinsics& camera)
+    : compute_(compute),
+      parameters_(parameters),
+      map_(compute, parameters.map),
+      preprocessor_(compute, parameters.preprocessing, camera),
+      tracker_(compute, parameters.icp_tracking, camera),
+      fusion_(compute, map_, parameters.tsdf_fusion),
+      renderer_(compute, map_, camera) {}
+
+FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
+  const StageTimers::Scope timer(timers_, "frame");
+  FrameResult result;
+  const DepthFrame& depth = preprocess(frame);
+  result.tracking = track(depth);
+  if (result.tracking.status == TrackingStatus::kLost) return result;
+  result.fusion = fuse(depth, result.tracking.T_W_D);
+  view_ = &renderer_.render(result.tracking.T_W_D, parameters_.preprocessing.min_range_m,
+                            parameters_.preprocessing.max_range_m, timers_);
+  return result;
+}
+
+FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const Pose& T_W_D) {
+  const StageTimers::Scope timer(timers_, "frame");
+  FrameResult result;
+  const DepthFrame& depth = preprocess(frame);
+  result.tracking.status = TrackingStatus::kTracking;
+  result.tracking.T_W_D = T_W_D;
+  result.fusion = fuse(depth, T_W_D);
+  return result;
+}
+
+const DepthFrame& ReconstructionPipeline::preprocess(const RgbdFrame& frame) {
+  const StageTimers::Scope timer(timers_, "preprocessing");
+  const DepthFrame& depth = preprocessor_.process(frame);
+  compute_.finish();
+  return depth;
+}
+
+TrackingResult ReconstructionPipeline::track(const DepthFrame& depth) {
+  if (view_ != nullptr) return tracker_.track(depth, *view_, view_->T_W_D, timers_);
+  TrackingResult first;
+  first.status = TrackingStatus::kTracking;
+  return first;
+}
+
+FusionResult ReconstructionPipeline::fuse(const DepthFrame& depth, const Pose& T_W_D) {
+  if (map_.usage().blocks == 0) map_.reset(windowCentre(parameters_.map, T_W_D));
+  return fusion_.integrate(depth, T_W_D, timers_);
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,53 @@
+#include "preprocessing/depth_preprocessing_kernels.h"
+
+#include "geometry/kernel_args.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr char kFile[] = "preprocessing/depth_preprocessing.cl";
+
+}  // namespace
+
+DepthPreprocessingKernels::DepthPreprocessingKernels(ComputeContext& compute)
+    : simd_width_(compute.impl().simd_width),
+      from_u16_(compute, kFile, "depth_to_metres_u16"),
+      from_f32_(compute, kFile, "depth_to_metres_f32"),
+      bilateral_(compute, kFile, "filter_bilateral"),
+      halve_(compute, kFile, "halve_depth"),
+      normals_(compute, kFile, "compute_normals"),
+      tiles_(compute, kFile, "max_tiles") {}
+
+size_t DepthPreprocessingKernels::columns(const CameraIntrinsics& camera) const {
+  return (camera.width + simd_width_ - 1) / simd_width_;
+}
+
+void DepthPreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input, DeviceBuffer& depth,
+                                              const CameraIntrinsics& camera, const RangeArgs& range) {
+  (is_u16 ? from_u16_ : from_f32_).run2d(columns(camera), camera.height, input, depth, toArgs(camera), range);
+}
+
+void DepthPreprocessingKernels::filterBilateral(const DeviceBuffer& depth, DeviceBuffer& filtered,
+                                                const CameraIntrinsics& camera, const BilateralArgs& args) {
+  bilateral_.run2d(columns(camera), camera.height, depth, filtered, toArgs(camera), args);
+}
+
+void DepthPreprocessingKernels::halveDepth(const DepthLevel& level, DepthLevel& half, float cutoff_sigmas) {
+  halve_.run2d(half.camera.width, half.camera.height, level.depth, half.depth, toArgs(level.camera),
+               toArgs(half.camera), cutoff_sigmas);
+}
+
+void DepthPreprocessingKernels::computeNormals(const DeviceBuffer& depth, DeviceBuffer& normals,
+                                               const CameraIntrinsics& camera, float max_relative_step) {
+  normals_.run2d(columns(camera), camera.height, depth, normals, toArgs(camera),
+                 static_cast<int>(planeElements(camera)), max_relative_step);
+}
+
+void DepthPreprocessingKernels::maxTiles(const DeviceBuffer& depth, DeviceBuffer& tiles,
+                                         const CameraIntrinsics& camera) {
+  const int tile_columns = (camera.width + kTile - 1) / kTile;
+  const int tile_count = tile_columns * ((camera.height + kTile - 1) / kTile);
+  tiles_.run(tile_count, depth, tiles, toArgs(camera), tile_columns, tile_count);
+}
+
+}  // namespace depth_fusion

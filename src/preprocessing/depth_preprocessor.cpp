@@ -1,0 +1,82 @@
+#include "depth_fusion/preprocessing/depth_preprocessor.h"
+
+#include <cmath>
+
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/compute/device_image.h"
+#include "preprocessing/depth_preprocessing_kernels.h"
+
+namespace depth_fusion {
+namespace {
+
+std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+}  // namespace
+
+ParameterTable PreprocessingParameters::table() {
+  return {{"min_range_m", &min_range_m, 0.0, 100.0, "nearer depth is left out"},
+          {"max_range_m", &max_range_m, 0.01, 100.0, "farther depth is left out"},
+          {"bilateral_sigma_px", &bilateral_sigma_px, 0.1, 10.0, "width of the bilateral filter in the image"},
+          {"bilateral_cutoff_sigmas", &bilateral_cutoff_sigmas, 0.1, 100.0,
+           "depth difference, in standard deviations of the sensor, at which a neighbour counts no more"},
+          {"max_relative_step", &max_relative_step, 0.001, 1.0,
+           "depth step between pixels, as a fraction of the depth, across which no normal is computed"}};
+}
+
+struct DepthPreprocessor::Kernels : DepthPreprocessingKernels {
+  using DepthPreprocessingKernels::DepthPreprocessingKernels;
+};
+
+DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const PreprocessingParameters& parameters,
+                                     const CameraIntrinsics& camera)
+    : parameters_(parameters), kernels_(std::make_unique<Kernels>(compute)) {
+  validate(parameters_.table());
+  check(parameters_.min_range_m < parameters_.max_range_m,
+        "preprocessing/min_range_m must be below preprocessing/max_range_m");
+  check(camera.valid(), "the depth camera's intrinsics are not valid; give them with --intrinsics fx,fy,cx,cy");
+  const size_t pixels = static_cast<size_t>(camera.width) * camera.height;
+  input_ = DeviceBuffer(compute, (pixels + 16) * sizeof(float), "the depth image");
+  result_.raw_depth = zeroImage(compute, camera, 1);
+  const int tile = DepthPreprocessingKernels::kTile;
+  result_.max_tiles = DeviceBuffer(
+      compute, sizeof(float) * ((camera.width + tile - 1) / tile) * ((camera.height + tile - 1) / tile), "depth tiles");
+  CameraIntrinsics level_camera = camera;
+  for (int level = 0; level < kLevels; ++level) {
+    check(level_camera.width > 2 && level_camera.height > 2,
+          "depth images of " + sizeText(camera.width, camera.height) + " are too small");
+    result_.levels.push_back(
+        {level_camera, zeroImage(compute, level_camera, 1), zeroImage(compute, level_camera, 3)});
+    level_camera = halved(level_camera);
+  }
+}
+
+DepthPreprocessor::~DepthPreprocessor() = default;
+
+const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame) {
+  const CameraIntrinsics& camera = result_.levels[0].camera;
+  const bool is_u16 = frame.depth.type() == CV_16UC1;
+  check(is_u16 || frame.depth.type() == CV_32FC1, "depth images must hold 16-bit integers or 32-bit floats");
+  check(frame.depth.cols == camera.width && frame.depth.rows == camera.height,
+        "a depth image is " + sizeText(frame.depth.cols, frame.depth.rows) + ", the intrinsics are for " +
+            sizeText(camera.width, camera.height));
+  const cv::Mat depth = frame.depth.isContinuous() ? frame.depth : frame.depth.clone();
+  input_.write(depth.data, depth.total() * depth.elemSize());
+
+  const float sigma_px = parameters_.bilateral_sigma_px;
+  BilateralArgs bilateral{{}, parameters_.bilateral_cutoff_sigmas};
+  for (int i = 0; i < 3; ++i) bilateral.spatial_weights[i] = std::exp(-i * i / (2.0f * sigma_px * sigma_px));
+
+  kernels_->depthToMetres(
+      is_u16, input_, result_.raw_depth, camera,
+      {static_cast<float>(frame.depth_unit_m), parameters_.min_range_m, parameters_.max_range_m});
+  kernels_->maxTiles(result_.raw_depth, result_.max_tiles, camera);
+  kernels_->filterBilateral(result_.raw_depth, result_.levels[0].depth, camera, bilateral);
+  for (int i = 0; i < kLevels; ++i) {
+    DepthLevel& level = result_.levels[i];
+    if (i > 0) kernels_->halveDepth(result_.levels[i - 1], level, parameters_.bilateral_cutoff_sigmas);
+    kernels_->computeNormals(level.depth, level.normals, level.camera, parameters_.max_relative_step);
+  }
+  return result_;
+}
+
+}  // namespace depth_fusion

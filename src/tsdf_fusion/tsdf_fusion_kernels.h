@@ -1,0 +1,30 @@
+// Typed launches of kernels/tsdf_fusion/*.cl. Lists come back in any order: sort what must be repeatable.
+#pragma once
+
+#include <vector>
+
+#include "compute/kernel.h"
+#include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
+#include "shared/types.h"
+
+namespace depth_fusion {
+
+class TsdfFusion::Kernels {
+ public:
+  Kernels(ComputeContext& compute, const MapParameters& map);
+
+  void requestBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& requests, DeviceBuffer& count,
+                     const Pose& T_W_D, const SelectionArgs& args);
+  void listVisibleBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& visible, DeviceBuffer& count,
+                         const Pose& T_D_W);
+  void integrateBlocks(const DepthFrame& frame, BlockSparseMap& map, const DeviceBuffer& visible, int visible_count,
+                       const Pose& T_D_W, const FusionArgs& args);
+  void listEmptyBlocks(BlockSparseMap& map, const DeviceBuffer& visible, int visible_count, DeviceBuffer& empty,
+                       DeviceBuffer& count);
+
+ private:
+  size_t items_per_block_;
+  Kernel request_, visible_, integrate_, empty_;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,34 @@
+#include "depth_fusion/common/stage_timers.h"
+
+#include <gtest/gtest.h>
+
+namespace depth_fusion {
+namespace {
+
+TEST(Percentile, IsTheNearestRank) {
+  const std::vector<double> samples = {50, 15, 40, 20, 35};
+  EXPECT_EQ(percentile(samples, 0.0), 15);
+  EXPECT_EQ(percentile(samples, 0.05), 15);
+  EXPECT_EQ(percentile(samples, 0.30), 20);
+  EXPECT_EQ(percentile(samples, 0.40), 20);
+  EXPECT_EQ(percentile(samples, 0.50), 35);
+  EXPECT_EQ(percentile(samples, 1.0), 50);
+}
+
+TEST(Percentile, OfNothingIsZero) { EXPECT_EQ(percentile({}, 0.5), 0.0); }
+
+TEST(StageTimers, ScopesAddASampleEachToTheirStage) {
+  StageTimers timers;
+  {
+    const StageTimers::Scope frame(timers, "frame");
+    const StageTimers::Scope reduce(timers, "icp_tracking/reduce");
+  }
+  { const StageTimers::Scope frame(timers, "frame"); }
+  ASSERT_EQ(timers.samplesMs().size(), 2u);
+  EXPECT_EQ(timers.samplesMs().at("frame").size(), 2u);
+  EXPECT_EQ(timers.samplesMs().at("icp_tracking/reduce").size(), 1u);
+  for (const double ms : timers.samplesMs().at("frame")) EXPECT_GE(ms, 0.0);
+}
+
+}  // namespace
+}  // namespace depth_fusion
