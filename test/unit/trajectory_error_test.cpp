@@ -83,7 +83,8 @@ TEST(TrajectoryError, AteIsTheInjectedNoise) {
 }
 
 TEST(TrajectoryError, RpeOfASteadyDrift) {
-  // A camera that stands still, estimated to slide along its x axis at 20 mm/s and to turn about it at 3 deg/s.
+  // A camera that stands still, estimated to slide along its x axis at 20 mm/s and to turn about it at 3
+  // deg/s.
   Trajectory still, drifting;
   for (int i = 0; i < 90; ++i) {
     const double t = i / 30.0;
