@@ -30,8 +30,8 @@ bool isBackground(const cv::Vec3b& bgr) { return bgr[0] < 60 && bgr[1] < 60 && b
 TEST(MeshPicture, showsTheNearerSurfaceAndItsSide) {
   const CameraIntrinsics camera = {64, 48, 50.0, 50.0, 31.5, 23.5};
   TriangleMesh mesh;
-  addSquare(mesh, {0.0f, 0.0f, 2.0f}, 0.6f, true);
   addSquare(mesh, {0.0f, 0.0f, 1.0f}, 0.1f, false);
+  addSquare(mesh, {0.0f, 0.0f, 2.0f}, 0.6f, true);
   addSquare(mesh, {0.0f, 0.0f, -1.0f}, 10.0f, true);
   const cv::Mat picture = renderMesh(mesh, camera, Pose::Identity());
   ASSERT_EQ(picture.size(), cv::Size(64, 48));
