@@ -88,7 +88,7 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
   result.inliers = static_cast<int>(system.inliers);
   result.inlier_fraction = system.source_points > 0.0 ? system.inliers / system.source_points : 0.0;
   result.rmse_m = system.rmse();
-  result.T_W_D = view.T_W_D * T_M_D;
+  result.T_W_D = orthonormalized(view.T_W_D * T_M_D);
   result.reason = lostReason(result, system, T_M_prior.inverse() * T_M_D, parameters_);
   result.status = result.reason.empty() ? TrackingStatus::kTracking : TrackingStatus::kLost;
   return result;

@@ -12,13 +12,15 @@ namespace depth_fusion {
 // A .bag file, or a folder as openFolder takes it. Throws Error for anything else.
 std::unique_ptr<Recording> openRecording(const std::string& path, const RecordingOptions& options);
 
-// Reads a bag: depth as sensor_msgs/Image (16UC1, mono16, 32FC1) or CompressedImage (compressedDepth png), colour as
-// Image (rgb8, bgr8, mono8) or CompressedImage (jpeg, png), intrinsics from the CameraInfo beside the depth topic.
-// Throws Error naming the topics of the bag if no depth topic or no camera_info is found.
+// Reads a bag: depth as sensor_msgs/Image (16UC1, mono16, 32FC1) or CompressedImage (compressedDepth png),
+// colour as Image (rgb8, bgr8, rgba8, bgra8, mono8) or CompressedImage (jpeg, png), intrinsics from the
+// CameraInfo beside the depth topic. Throws Error naming the topics of the bag if no depth topic or no
+// camera_info is found.
 std::unique_ptr<Recording> openBag(const std::string& path, const RecordingOptions& options);
 
-// A bag with the topics of openni2_launch: camera/depth_registered/image_raw (16UC1, mm), camera/rgb/image_raw (bgr8),
-// their camera_info, and the reference pose of the depth camera on /tf (world -> camera_rgb_optical_frame).
+// A bag with the topics of openni2_launch: /camera/depth_registered/image_raw (16UC1, mm) and
+// /camera/rgb/image_raw (bgr8 or mono8), their camera_info, and the reference pose of the depth camera on /tf
+// (world -> camera_rgb_optical_frame). A file of that name is replaced.
 std::unique_ptr<RecordingWriter> createBag(const std::string& path);
 
 }  // namespace depth_fusion

@@ -27,6 +27,14 @@ inline Pose poseFromTwist(const Vector6d& twist) {
   return motion;
 }
 
+// The pose with its rotation made orthonormal. Isometry3d inverts by transposing, so that products of poses and inverses
+// of poses triple a rotation's rounding error each time: whoever chains poses must stop that.
+inline Pose orthonormalized(const Pose& pose) {
+  Pose result = pose;
+  result.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
+  return result;
+}
+
 inline double rotationAngle(const Pose& motion) { return Eigen::AngleAxisd(motion.linear()).angle(); }
 
 // The pose at stamp_s on the straight (slerp) way between two poses; extrapolates outside of them.

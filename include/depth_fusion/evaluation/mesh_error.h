@@ -1,0 +1,21 @@
+// How far a mesh is from a scene's exact surface.
+#pragma once
+
+#include "depth_fusion/evaluation/statistics.h"
+#include "depth_fusion/simulation/scene.h"
+#include "depth_fusion/surface_mesh/triangle_mesh.h"
+
+namespace depth_fusion {
+
+struct MeshError {
+  size_t triangles = 0;
+  double area_m2 = 0.0;
+  ErrorStatistics vertices_m;  // distance of each vertex to the surface
+  ErrorStatistics surface_m;   // of points spread evenly over the triangles' area
+};
+
+// T_W_M maps the mesh into the scene's world. Throws Error for a mesh without triangles.
+MeshError compareMesh(const TriangleMesh& mesh, const Pose& T_W_M, const Scene& scene,
+                      int surface_samples = 500000);
+
+}  // namespace depth_fusion

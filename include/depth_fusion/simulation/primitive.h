@@ -1,0 +1,86 @@
+// Solids with an exact signed distance function, and the procedural textures on them.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "depth_fusion/geometry/pose.h"
+
+namespace depth_fusion {
+
+enum class Pattern {
+  kPlain,     // one colour
+  kSpeckles,  // soft spots of several sizes
+  kTiles,     // cells of random brightness: many corners
+  kWood,      // grain along x
+};
+
+struct Material {
+  Eigen::Vector3d color_bgr = Eigen::Vector3d::Constant(180.0);  // mean colour, 0..255
+  Pattern pattern = Pattern::kPlain;
+  double scale_m = 0.1;   // size of the pattern's largest feature
+  double contrast = 0.5;  // 0: plain; 1: from black to twice the mean
+};
+
+// Colour at a point (B, G, R in 0..255); the texture fills space, a surface cuts through it.
+Eigen::Vector3d textureColor(const Material& material, const Eigen::Vector3d& p_W);
+
+enum class Shape {
+  kBox,
+  kRoom,      // the inside of a box
+  kSphere,    // radius half_size.x
+  kCylinder,  // along z with flat ends, radius half_size.x, half height half_size.z
+  kCapsule,   // along z with round ends, radius half_size.x, half height without the ends half_size.z
+  kPlane,     // z = 0, free space above
+};
+
+// A solid in its own frame S, centred at the origin.
+class Primitive {
+ public:
+  Primitive(Shape shape, const Pose& T_W_S, const Eigen::Vector3d& half_size_m, const Material& material,
+            double rounding_m = 0.0);
+
+  // Euclidean distance to the surface in metres, negative inside the solid.
+  double distance(const Eigen::Vector3d& p_W) const;
+  // Unit vector away from the surface: the gradient of distance().
+  Eigen::Vector3d normal(const Eigen::Vector3d& p_W) const;
+
+  // Range at which a ray (of unit length, from free space) first meets the surface, if that is before
+  // max_range_m.
+  std::optional<double> firstHit(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& ray_W,
+                                 double max_range_m) const;
+
+  const Material& material() const { return material_; }
+  Eigen::Vector3d centre_W() const { return T_W_S_.translation(); }
+  // Of the sphere about centre_W() that holds the solid; infinite for rooms and planes.
+  double boundingRadius() const;
+
+ private:
+  struct Interval {
+    double begin_m, end_m;
+  };
+
+  double distanceInS(const Eigen::Vector3d& p_S) const;
+  // The part of a ray that can hold the first hit; empty if its end lies before its begin.
+  Interval hitInterval(const Eigen::Vector3d& origin_S, const Eigen::Vector3d& ray_S) const;
+
+  Shape shape_;
+  Pose T_W_S_;
+  Eigen::Matrix3d R_S_W_;
+  Eigen::Vector3d half_size_m_;
+  Material material_;
+  double rounding_m_;  // of a box's edges
+};
+
+// Shorthands for building scenes. Positions and full sizes in metres; `yaw_rad` turns about z.
+Primitive box(const Eigen::Vector3d& centre_W, const Eigen::Vector3d& size_m, const Material& material,
+              double yaw_rad = 0.0, double rounding_m = 0.0);
+Primitive room(const Eigen::Vector3d& centre_W, const Eigen::Vector3d& size_m, const Material& material);
+Primitive sphere(const Eigen::Vector3d& centre_W, double radius_m, const Material& material);
+Primitive cylinder(const Eigen::Vector3d& bottom_W, const Eigen::Vector3d& top_W, double radius_m,
+                   const Material& material);
+Primitive capsule(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, double radius_m,
+                  const Material& material);
+Primitive plane(const Eigen::Vector3d& point_W, const Eigen::Vector3d& normal_W, const Material& material);
+
+}  // namespace depth_fusion

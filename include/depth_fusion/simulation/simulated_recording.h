@@ -1,0 +1,38 @@
+// A built-in scene seen by a simulated hand-held sensor, as a recording with exact poses.
+#pragma once
+
+#include "depth_fusion/recording/recording.h"
+#include "depth_fusion/simulation/scene_library.h"
+
+namespace depth_fusion {
+
+struct SimulationOptions {
+  std::string scene = "room";
+  int frames = 300;
+  bool noise = true;
+  unsigned seed = 1;
+  double fps = 30.0;
+  double speed = 1.0;  // times the scene's own
+  CameraIntrinsics intrinsics{640, 480, 525.0, 525.0, 319.5, 239.5};
+};
+
+class SimulatedRecording : public Recording {
+ public:
+  // Throws Error for an unknown scene or a value that makes no sense.
+  explicit SimulatedRecording(const SimulationOptions& options);
+
+  // Depth as CV_32FC1 in metres, colour as BGR, the exact pose. The same options give the same bits.
+  std::optional<RgbdFrame> next() override;
+  size_t frameCount() const override { return static_cast<size_t>(options_.frames); }
+  std::string description() const override;
+
+  const SimulatedScene& scene() const { return scene_; }
+  StampedPose poseOf(int frame) const;
+
+ private:
+  SimulationOptions options_;
+  SimulatedScene scene_;
+  int next_frame_ = 0;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,44 @@
+// Meshes as binary PLY files: x y z nx ny nz as floats, faces as lists of three ints.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "depth_fusion/surface_mesh/triangle_mesh.h"
+
+namespace depth_fusion {
+
+// Streams a mesh to a file; memory use does not depend on the mesh. Errors name the path and the reason.
+// Unless finish() succeeded, no file is left.
+class PlyWriter final : public MeshSink {
+ public:
+  // Throws Error if the file cannot be created.
+  explicit PlyWriter(const std::string& path);
+  ~PlyWriter() override;
+  PlyWriter(const PlyWriter&) = delete;
+  PlyWriter& operator=(const PlyWriter&) = delete;
+
+  void begin(const MeshSize& size) override;
+  void addVertices(const MeshVertex* vertices, size_t count) override;
+  void addTriangles(const MeshTriangle* triangles, size_t count) override;
+  void finish() override;
+
+ private:
+  void writeAt(uint64_t offset, const void* data, size_t bytes);
+  [[noreturn]] void fail(const std::string& action) const;
+
+  std::string path_;
+  int file_ = -1;
+  uint64_t vertex_offset_ = 0;
+  uint64_t face_offset_ = 0;
+  std::vector<unsigned char> faces_;
+};
+
+void writePly(const std::string& path, const TriangleMesh& mesh);
+
+// Reads a binary little-endian PLY file with float x y z, with or without nx ny nz, among any other numbers
+// of a vertex, and triangles. Throws Error naming the path and what is wrong.
+TriangleMesh readPly(const std::string& path);
+
+}  // namespace depth_fusion

@@ -1,0 +1,37 @@
+// Marching cubes over the block-sparse map.
+#pragma once
+
+#include <functional>
+
+#include "depth_fusion/common/parameters.h"
+#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/surface_mesh/triangle_mesh.h"
+
+namespace depth_fusion {
+
+struct SurfaceMeshParameters {
+  int min_weight = 1;
+  int max_batch_blocks = 16384;
+
+  ParameterTable table();
+};
+
+struct MeshStatistics {
+  MeshSize size;
+  size_t blocks = 0;        // in the map
+  size_t batches = 0;       // in which the mesh was emitted
+  size_t device_bytes = 0;  // allocated for the export, whatever the size of the map
+};
+
+// Called with the fraction done, in [0, 1].
+using MeshProgress = std::function<void(double)>;
+
+// Extracts the surface between the voxels with a negative and those with a positive distance. A cell emits
+// triangles if its eight voxels are known. Cells share their vertices across blocks and batches, so the mesh
+// has no cracks, and closed surfaces are watertight. The same map gives the same bytes on the same device.
+// The voxels must not change meanwhile. Throws Error if the mesh has more than 2^31 - 1 vertices or the sink
+// fails.
+MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockSparseMap& map, MeshSink& sink,
+                                 SurfaceMeshParameters parameters = {}, const MeshProgress& progress = {});
+
+}  // namespace depth_fusion

@@ -1,0 +1,158 @@
+// Measures trajectories against ground truth and meshes against the exact surface of a built-in scene.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/evaluation/mesh_error.h"
+#include "depth_fusion/evaluation/trajectory_plot.h"
+#include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/simulation/scene_library.h"
+#include "depth_fusion/surface_mesh/ply.h"
+
+namespace depth_fusion {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::string trajectory, groundtruth, plot, mesh, scene;
+  TrajectoryErrorOptions options;
+  bool json = false;
+};
+
+void addOptions(CLI::App& app, Arguments& arguments) {
+  auto* trajectory =
+      app.add_option("-t,--trajectory", arguments.trajectory, "estimated trajectory (TUM format)");
+  auto* groundtruth =
+      app.add_option("-g,--groundtruth", arguments.groundtruth, "true trajectory (TUM format)");
+  trajectory->needs(groundtruth);
+  app.add_option("-p,--plot", arguments.plot, "picture of both trajectories to write (.png)")
+      ->needs(trajectory);
+  auto* mesh = app.add_option("-m,--mesh", arguments.mesh, "mesh (binary .ply) to measure");
+  auto* scene = app.add_option("-s,--scene", arguments.scene,
+                               "the scene the mesh shows: a folder written by simulate, or a scene's name");
+  mesh->needs(scene);
+  scene->needs(mesh);
+  app.add_option("--max-gap", arguments.options.max_gap_s,
+                 "seconds to the nearest true poses, over which an estimated pose is left out")
+      ->capture_default_str();
+  app.add_option("--rpe-interval", arguments.options.rpe_interval_s,
+                 "seconds over which the relative error is taken")
+      ->capture_default_str();
+  app.add_flag("-j,--json", arguments.json, "print the result as JSON, in metres and degrees");
+  app.footer(
+      "A trajectory is aligned rigidly, without scale, before its absolute error (ATE) is taken; the "
+      "relative error\n"
+      "(RPE) needs no alignment. The mesh is moved into the scene's world, with --trajectory and "
+      "--groundtruth by\n"
+      "their alignment, with --groundtruth alone by its first pose (a mesh in the frame of the first "
+      "camera), with\n"
+      "neither not at all (a mesh fused with the true poses).\n\n"
+      "Examples: evaluate --trajectory out/trajectory.txt --groundtruth room/groundtruth.txt --plot "
+      "error.png\n"
+      "          evaluate --mesh out/mesh.ply --scene room \\\n"
+      "                   --trajectory out/trajectory.txt --groundtruth room/groundtruth.txt");
+}
+
+Json toJson(const ErrorStatistics& statistics) {
+  return {{"rmse", statistics.rmse},        {"mean", statistics.mean}, {"median", statistics.median},
+          {"p95", statistics.percentile95}, {"max", statistics.max},   {"count", statistics.count}};
+}
+
+Json toJson(const TrajectoryError& error) {
+  return {{"estimated_poses", error.estimated_poses},
+          {"compared_poses", error.pairs.size()},
+          {"ate_m", toJson(error.ate_m)},
+          {"rpe_translation_m", toJson(error.rpe_translation_m)},
+          {"rpe_rotation_deg", toJson(error.rpe_rotation_deg)}};
+}
+
+Json toJson(const MeshError& error) {
+  return {{"triangles", error.triangles},
+          {"area_m2", error.area_m2},
+          {"vertices_m", toJson(error.vertices_m)},
+          {"surface_m", toJson(error.surface_m)}};
+}
+
+void printRow(const char* name, const ErrorStatistics& statistics, double scale, const char* unit) {
+  if (statistics.count == 0) {
+    std::printf("  %-24s none compared\n", name);
+    return;
+  }
+  std::printf("  %-24s rmse %8.3f  mean %8.3f  median %8.3f  95%% %8.3f  max %8.3f %s\n", name,
+              scale * statistics.rmse, scale * statistics.mean, scale * statistics.median,
+              scale * statistics.percentile95, scale * statistics.max, unit);
+}
+
+void print(const TrajectoryError& error, const TrajectoryErrorOptions& options) {
+  std::printf("trajectory: %zu of %zu poses have a true one\n", error.pairs.size(), error.estimated_poses);
+  char relative[40];
+  std::snprintf(relative, sizeof(relative), "relative, over %g s", options.rpe_interval_s);
+  printRow("absolute (ATE)", error.ate_m, 1000.0, "mm");
+  printRow(relative, error.rpe_translation_m, 1000.0, "mm");
+  printRow(relative, error.rpe_rotation_deg, 1.0, "deg");
+}
+
+void print(const MeshError& error) {
+  std::printf("mesh: %zu triangles, %.3f m^2, distance to the true surface\n", error.triangles,
+              error.area_m2);
+  printRow("of the vertices", error.vertices_m, 1000.0, "mm");
+  printRow("of the surface", error.surface_m, 1000.0, "mm");
+}
+
+void writePlot(const std::string& path, const TrajectoryError& error) {
+  bool written = false;
+  try {
+    written = cv::imwrite(path, plotTrajectories(error));
+  } catch (const cv::Exception&) {
+    throw Error(path + ": OpenCV knows no picture format of this ending; use .png");
+  }
+  check(written, path + ": the picture cannot be written; does its folder exist and is it writable?");
+}
+
+void evaluate(const Arguments& arguments) {
+  check(!arguments.trajectory.empty() || !arguments.mesh.empty(),
+        "nothing to measure; give --trajectory and --groundtruth, or --mesh and --scene (see --help)");
+  Json report = Json::object();
+  Pose T_W_M = Pose::Identity();
+  if (!arguments.groundtruth.empty()) {
+    const Trajectory truth = readTrajectory(arguments.groundtruth);
+    T_W_M = truth.front().T_W_D;
+    if (!arguments.trajectory.empty()) {
+      const TrajectoryError error =
+          compareTrajectories(readTrajectory(arguments.trajectory), truth, arguments.options);
+      T_W_M = error.T_W_E;
+      report["trajectory"] = toJson(error);
+      if (!arguments.json) print(error, arguments.options);
+      if (!arguments.plot.empty()) writePlot(arguments.plot, error);
+    }
+  }
+  if (!arguments.mesh.empty()) {
+    const Scene scene = makeScene(findSceneName(arguments.scene)).surface;
+    const MeshError error = compareMesh(readPly(arguments.mesh), T_W_M, scene);
+    report["mesh"] = toJson(error);
+    if (!arguments.json) print(error);
+  }
+  if (arguments.json) std::printf("%s\n", report.dump(2).c_str());
+}
+
+}  // namespace
+}  // namespace depth_fusion
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Measures trajectories against ground truth, and meshes against the exact surface of a built-in "
+      "scene.");
+  depth_fusion::Arguments arguments;
+  depth_fusion::addOptions(app, arguments);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    depth_fusion::evaluate(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "evaluate: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,107 @@
+// Fuses a recording into a mesh.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "apps/reconstruct/run.h"
+#include "depth_fusion/common/error.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr char kDescription[] =
+    "Fuses an RGB-D recording into a surface: mesh.ply, trajectory.txt (TUM format) and report.json.\n"
+    "The recording is a folder in the TUM or 7-Scenes layout or a .bag file; which one is found out by looking.\n"
+    "The world frame is the first camera's (x right, y down, z forward), or that of --trajectory.\n\n"
+    "Examples:\n"
+    "  reconstruct --input desk --output out\n"
+    "  reconstruct --input desk.bag --output out --voxel-size 0.01 --max-range 4\n"
+    "  reconstruct --input desk --output out --trajectory poses.txt\n";
+
+void listDevices() {
+  const std::vector<DeviceInfo> devices = ComputeContext::listDevices();
+  for (size_t i = 0; i < devices.size(); ++i) {
+    std::cout << "[" << i << "] " << devices[i].name << " (" << devices[i].platform << ", " << devices[i].version
+              << ", " << (devices[i].memory_bytes >> 20) << " MiB)\n";
+  }
+  if (devices.empty()) std::cout << "no OpenCL device; the package pocl-opencl-icd brings one for the CPU\n";
+}
+
+CameraIntrinsics parseIntrinsics(const std::vector<double>& values) {
+  CameraIntrinsics camera;
+  camera.fx = values[0];
+  camera.fy = values[1];
+  camera.cx = values[2];
+  camera.cy = values[3];
+  return camera;
+}
+
+void addOptions(CLI::App& app, RunOptions& options, std::vector<double>& intrinsics) {
+  MapParameters& map = options.parameters.map;
+  app.add_option("--input", options.input, "recording to fuse: a folder or a .bag file");
+  app.add_option("--output", options.output, "folder for the results; made if missing");
+  app.add_option("--voxel-size", map.voxel_size_m, "edge of a voxel in metres")->capture_default_str();
+  app.add_option("--blocks-per-axis", map.blocks_per_axis, "the window's size in blocks, N")->capture_default_str();
+  app.add_option("--block-size", map.block_size, "voxels per block axis, M: 4, 8, 16 or 32")->capture_default_str();
+  app.add_option("--truncation", map.truncation_m, "distance kept on both sides of a surface, metres (4 voxels)");
+  app.add_option("--max-range", options.parameters.preprocessing.max_range_m, "farthest depth used, metres")
+      ->capture_default_str();
+  app.add_option("--intrinsics", intrinsics, "fx,fy,cx,cy of the depth camera, instead of the recording's")
+      ->delimiter(',')
+      ->expected(4);
+  app.add_option("--params", options.parameter_file, "YAML file of `stage: {name: value}`; see --print-params");
+  app.add_option("--trajectory", options.trajectory_file, "TUM format; fuse at these poses instead of tracking");
+  app.add_option("--max-frames", options.max_frames, "stop after so many frames");
+  app.add_option("--device", options.device, "OpenCL device: index, part of its name, cpu or gpu; `list` shows them");
+  app.add_option("--depth-topic", options.recording.depth_topic, "of a bag, instead of the one found");
+  app.add_option("--color-topic", options.recording.color_topic, "of a bag, instead of the one found");
+  app.add_flag("--no-mesh", options.no_mesh, "track and fuse only, for timing");
+}
+
+void printParameters(PipelineParameters& parameters) {
+  for (const Parameter& parameter : parameters.table()) {
+    std::cout << parameter.name << ": " << valueText(parameter) << "   # [" << parameter.minimum << ", "
+              << parameter.maximum << "] " << parameter.help << "\n";
+  }
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(kDescription);
+  RunOptions options;
+  std::vector<double> intrinsics;
+  bool print_parameters = false;
+  addOptions(app, options, intrinsics);
+  app.add_flag("--print-params", print_parameters, "list every parameter with its value, range and meaning");
+
+  // The parameter file comes first, then the options, whatever their order on the command line.
+  CLI11_PARSE(app, argc, argv);
+  if (!options.parameter_file.empty()) {
+    loadParameterFile(options.parameters.table(), options.parameter_file);
+    CLI11_PARSE(app, argc, argv);
+  }
+  MapParameters& map = options.parameters.map;
+  if (app.count("--truncation") == 0 && app.count("--voxel-size") > 0) map.truncation_m = 4.0f * map.voxel_size_m;
+  if (!intrinsics.empty()) options.recording.intrinsics = parseIntrinsics(intrinsics);
+
+  if (options.device == "list") {
+    listDevices();
+    return 0;
+  }
+  if (print_parameters) {
+    printParameters(options.parameters);
+    return 0;
+  }
+  check(!options.input.empty() && !options.output.empty(), "--input and --output are needed; see --help");
+  return reconstruct(options);
+}
+
+}  // namespace
+}  // namespace depth_fusion
+
+int main(int argc, char** argv) {
+  try {
+    return depth_fusion::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "reconstruct: " << error.what() << std::endl;
+    return 1;
+  }
+}

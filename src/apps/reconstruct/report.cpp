@@ -1,0 +1,62 @@
+#include "apps/reconstruct/report.h"
+
+#include <sys/resource.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "depth_fusion/common/error.h"
+
+namespace depth_fusion {
+namespace {
+
+nlohmann::ordered_json parametersJson(PipelineParameters parameters) {
+  nlohmann::ordered_json json;
+  for (const Parameter& parameter : parameters.table()) {
+    std::visit([&](const auto* value) { json[parameter.name] = *value; }, parameter.value);
+  }
+  return json;
+}
+
+nlohmann::ordered_json statisticsJson(const std::vector<double>& samples_ms) {
+  return {{"median", percentile(samples_ms, 0.5)}, {"p95", percentile(samples_ms, 0.95)}};
+}
+
+}  // namespace
+
+size_t peakRssBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<size_t>(usage.ru_maxrss) * 1024;
+}
+
+void writeReport(const std::string& path, const std::string& input, ComputeContext& compute,
+                 ReconstructionPipeline& pipeline, const RunCounts& counts, size_t tracking_peak_rss_bytes) {
+  const BlockSparseMap::Usage usage = pipeline.map().usage();
+  nlohmann::ordered_json stages;
+  nlohmann::ordered_json frame;
+  for (const auto& [stage, samples_ms] : pipeline.timers().samplesMs()) {
+    (stage == "frame" ? frame : stages[stage]) = statisticsJson(samples_ms);
+  }
+  const nlohmann::ordered_json report = {
+      {"input", input},
+      {"device", compute.selfTestReport()},
+      {"parameters", parametersJson(pipeline.parameters())},
+      {"frames",
+       {{"read", counts.read}, {"tracked", counts.tracked}, {"lost", counts.lost}, {"unreadable", counts.unreadable}}},
+      {"frame_ms", frame},
+      {"stage_ms", stages},
+      {"map",
+       {{"blocks", usage.blocks},
+        {"capacity", usage.capacity},
+        {"bytes", usage.bytes},
+        {"pool_bytes", usage.pool_bytes}}},
+      {"peak_rss_bytes", peakRssBytes()},
+      {"tracking_peak_rss_bytes", tracking_peak_rss_bytes}};
+  std::ofstream file(path);
+  file << report.dump(2) << std::endl;
+  file.close();
+  check(!file.fail(), path + " cannot be written completely; is the disk full?");
+}
+
+}  // namespace depth_fusion

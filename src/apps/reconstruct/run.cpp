@@ -1,0 +1,167 @@
+#include "apps/reconstruct/run.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+
+#include "apps/reconstruct/report.h"
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/recording/trajectory_file.h"
+#include "ros/recording.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr double kMaxPoseGap_s = 0.1;
+
+std::atomic<bool> interrupted{false};
+
+class Run {
+ public:
+  explicit Run(const RunOptions& options);
+  int execute();
+
+ private:
+  void fuseRecording();
+  // The next frame, past those that cannot be read; nothing at the end.
+  std::optional<RgbdFrame> nextFrame();
+  void fuseFrame(const RgbdFrame& frame);
+  void noteResult(const RgbdFrame& frame, const FrameResult& result);
+  void showProgress(bool last);
+  void writeResults();
+  // Does one thing of many that should all be tried; a failure is said and remembered.
+  void attempt(const std::function<void()>& action);
+  void complain(const std::string& message);
+
+  const RunOptions& options_;
+  ComputeContext compute_;
+  std::unique_ptr<Recording> recording_;
+  Trajectory poses_;
+  std::unique_ptr<ReconstructionPipeline> pipeline_;
+  Trajectory trajectory_;
+  RunCounts counts_;
+  std::string status_;
+  bool pool_was_full_ = false;
+  bool failed_ = false;
+};
+
+Run::Run(const RunOptions& options) : options_(options), compute_(options.device) {
+  std::cout << "device: " << compute_.selfTestReport() << std::endl;
+  recording_ = openRecording(options.input, options.recording);
+  std::cout << "input: " << recording_->description() << std::endl;
+  if (!options.trajectory_file.empty()) poses_ = readTrajectory(options.trajectory_file);
+  std::error_code error;
+  std::filesystem::create_directories(options.output, error);
+  check(!error && access(options.output.c_str(), W_OK) == 0,
+        "the output folder " + options.output + " cannot be written" + (error ? ": " + error.message() : ""));
+}
+
+int Run::execute() {
+  fuseRecording();
+  check(pipeline_ != nullptr, options_.input + ": no frame could be read");
+  writeResults();
+  return failed_ ? 1 : 0;
+}
+
+void Run::fuseRecording() {
+  while (!interrupted && (options_.max_frames == 0 || counts_.read < options_.max_frames)) {
+    const std::optional<RgbdFrame> frame = nextFrame();
+    if (!frame) break;
+    if (!pipeline_) {
+      pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, frame->intrinsics);
+    }
+    fuseFrame(*frame);
+    showProgress(false);
+  }
+  if (pipeline_) showProgress(true);
+}
+
+std::optional<RgbdFrame> Run::nextFrame() {
+  while (true) {
+    try {
+      StageTimers none;
+      const StageTimers::Scope timer(pipeline_ ? pipeline_->timers() : none, "recording/read");
+      std::optional<RgbdFrame> frame = recording_->next();
+      if (frame) ++counts_.read;
+      return frame;
+    } catch (const Error& error) {
+      ++counts_.unreadable;
+      complain(error.what());
+      check(counts_.unreadable < recording_->frameCount(), "no frame of " + options_.input + " can be read");
+    }
+  }
+}
+
+void Run::fuseFrame(const RgbdFrame& frame) {
+  if (options_.trajectory_file.empty()) {
+    noteResult(frame, pipeline_->processFrame(frame));
+    return;
+  }
+  const std::optional<Pose> T_W_D = poseAt(poses_, frame.stamp_s, kMaxPoseGap_s);
+  FrameResult result;
+  result.tracking.reason = "no pose near its stamp in " + options_.trajectory_file;
+  noteResult(frame, T_W_D ? pipeline_->processFrame(frame, *T_W_D) : result);
+}
+
+void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
+  if (result.tracking.status == TrackingStatus::kLost) {
+    ++counts_.lost;
+    status_ = "lost: " + result.tracking.reason;
+    return;
+  }
+  ++counts_.tracked;
+  status_ = "tracking";
+  trajectory_.push_back({frame.stamp_s, result.tracking.T_W_D});
+  if (result.fusion.blocks_allocated < result.fusion.blocks_requested && !pool_was_full_) {
+    pool_was_full_ = true;
+    complain("the voxel pool is full at frame " + std::to_string(counts_.read) +
+             ": new surface is left out from here on; raise map/pool_mib or --voxel-size");
+  }
+}
+
+void Run::showProgress(bool last) {
+  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  if (!last && !terminal && counts_.read % 50 != 0) return;
+  const double frame_ms = percentile(pipeline_->timers().samplesMs().at("frame"), 0.5);
+  std::printf("%sframe %zu/%zu  %.1f ms (%.0f fps)  %zu blocks  %zu lost  %-30s%s", terminal ? "\r" : "",
+              counts_.read, recording_->frameCount(), frame_ms, 1000.0 / frame_ms, pipeline_->map().usage().blocks,
+              counts_.lost, status_.c_str(), terminal && !last ? "" : "\n");
+  std::fflush(stdout);
+}
+
+void Run::writeResults() {
+  const std::string folder = options_.output + "/";
+  const size_t tracking_peak_rss_bytes = peakRssBytes();
+  attempt([&] { writeTrajectory(folder + "trajectory.txt", trajectory_); });
+  attempt([&] {
+    writeReport(folder + "report.json", options_.input, compute_, *pipeline_, counts_, tracking_peak_rss_bytes);
+  });
+}
+
+void Run::attempt(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    complain(error.what());
+  }
+}
+
+void Run::complain(const std::string& message) {
+  failed_ = true;
+  std::cerr << "reconstruct: " << message << std::endl;
+}
+
+}  // namespace
+
+int reconstruct(const RunOptions& options) {
+  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGTERM, [](int) { interrupted = true; });
+  return Run(options).execute();
+}
+
+}  // namespace depth_fusion

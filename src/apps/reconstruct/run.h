@@ -1,0 +1,27 @@
+// What `reconstruct` does once its options are known.
+#pragma once
+
+#include <string>
+
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
+#include "depth_fusion/recording/recording.h"
+
+namespace depth_fusion {
+
+struct RunOptions {
+  std::string input;
+  std::string output;
+  std::string parameter_file;
+  std::string trajectory_file;
+  std::string device;
+  size_t max_frames = 0;  // 0 = all
+  bool no_mesh = false;
+  RecordingOptions recording;
+  PipelineParameters parameters;
+};
+
+// Fuses the recording and writes mesh, trajectory and report. Returns the exit status: 1 if a frame could not be read,
+// the pool was full, or a file could not be written, each said on standard error. Throws Error if nothing can start.
+int reconstruct(const RunOptions& options);
+
+}  // namespace depth_fusion

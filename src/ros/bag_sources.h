@@ -1,0 +1,24 @@
+// What of a bag makes its frames: the topics and the intrinsics.
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <string>
+
+#include "depth_fusion/recording/recording.h"
+#include "recording/recording_intrinsics.h"
+
+namespace depth_fusion {
+
+struct BagSources {
+  std::string depth_topic;
+  std::string color_topic;  // empty if there is none
+  RecordingIntrinsics intrinsics;
+  std::string remark;  // what the user should know about them, or empty
+};
+
+// Finds them, or takes the given ones. Throws Error naming the bag's topics if depth or intrinsics are not
+// there, or if the encoding of the depth, or of a colour topic that was given, is not one that is read.
+BagSources findSources(const rosbag::Bag& bag, const RecordingOptions& options);
+
+}  // namespace depth_fusion

@@ -1,0 +1,36 @@
+// Which topics of a bag hold depth, colour and intrinsics, by type and name.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace depth_fusion {
+
+struct BagTopic {
+  std::string name;
+  std::string type;  // "sensor_msgs/Image"
+};
+
+constexpr char kImageType[] = "sensor_msgs/Image";
+constexpr char kCompressedImageType[] = "sensor_msgs/CompressedImage";
+constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
+
+// The best image topic with depth in its name: registered before others, raw before compressed.
+std::optional<BagTopic> findDepthTopic(const std::vector<BagTopic>& topics);
+
+// The best image topic with rgb or color in its name: in the namespace nearest to the depth's, raw before
+// compressed.
+std::optional<BagTopic> findColorTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic);
+
+// The camera_info topic beside the depth, in its very namespace, or an empty name.
+std::string ownInfoTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic);
+
+// The camera_info topics of the depth's outermost namespace, the likeliest first.
+std::vector<std::string> relatedInfoTopics(const std::vector<BagTopic>& topics,
+                                           const std::string& depth_topic);
+
+// "/a [sensor_msgs/Image], /b [...]".
+std::string listTopics(const std::vector<BagTopic>& topics);
+
+}  // namespace depth_fusion

@@ -1,0 +1,30 @@
+// sensor_msgs images as the core takes them. `topic` begins the message of every Error.
+#pragma once
+
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace depth_fusion {
+
+struct DepthImage {
+  cv::Mat image;  // CV_16UC1 or CV_32FC1 in units of unit_m; 0, NaN = none
+  double unit_m = 1.0;
+};
+
+// 16UC1 and mono16 (millimetres), 32FC1 (metres).
+DepthImage depthFromImage(const sensor_msgs::Image& message, const std::string& topic);
+
+// What compressed_depth_image_transport sends as png (16UC1, or 32FC1 as quantised inverse depth), or a plain
+// PNG of 16 bits (millimetres).
+DepthImage depthFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic);
+
+// rgb8, bgr8, rgba8, bgra8 as CV_8UC3 BGR, mono8 as CV_8UC1.
+cv::Mat colorFromImage(const sensor_msgs::Image& message, const std::string& topic);
+
+// jpeg or png as CV_8UC3 BGR or CV_8UC1.
+cv::Mat colorFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic);
+
+}  // namespace depth_fusion

@@ -1,0 +1,11 @@
+// The scenes of the library, one function each.
+#pragma once
+
+#include "depth_fusion/simulation/scene_library.h"
+
+namespace depth_fusion {
+
+SimulatedScene makeRoomScene();
+SimulatedScene makeObjectScene();
+
+}  // namespace depth_fusion

@@ -1,0 +1,112 @@
+#include "depth_fusion/simulation/sensor_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace depth_fusion {
+namespace {
+
+constexpr double kEdgeStep =
+    0.03;  // a depth step of this fraction of the depth between neighbours is an edge
+
+class RowSensor {
+ public:
+  RowSensor(const RenderedView& view, const SensorModel& sensor, uint64_t seed, int row)
+      : view_(view),
+        sensor_(sensor),
+        random_((seed + 1) * 0x9e3779b97f4a7c15ull ^ (row + 1) * 0xbf58476d1ce4e5b9ull),
+        row_(row) {
+    random_.next();
+  }
+
+  float sense(int column) {
+    const double jitter_u = random_.gaussian(sensor_.lateral_sigma_px);
+    const double jitter_v = random_.gaussian(sensor_.lateral_sigma_px);
+    const double axial = random_.gaussian(1.0);
+    const double chance = random_.uniform(0.0, 1.0);
+
+    const int u = std::clamp(static_cast<int>(std::lround(column + jitter_u)), 0, view_.depth_m.cols - 1);
+    const int v = std::clamp(static_cast<int>(std::lround(row_ + jitter_v)), 0, view_.depth_m.rows - 1);
+    const double z_m = view_.depth_m.at<float>(v, u);
+    if (z_m <= 0.0 || chance < dropout(u, v, z_m)) return 0.0f;
+    const double sensed_m = quantised(z_m + axial * sensor_.axialSigma(z_m));
+    return sensed_m >= sensor_.min_range_m && sensed_m <= sensor_.max_range_m ? static_cast<float>(sensed_m)
+                                                                              : 0.0f;
+  }
+
+ private:
+  double dropout(int u, int v, double z_m) const {
+    const double flatness = 1.0 - view_.cos_incidence.at<float>(v, u) / std::max(sensor_.grazing_cos, 1e-9);
+    return std::max(flatness, isEdge(u, v, z_m) ? sensor_.edge_dropout : 0.0);
+  }
+
+  bool isEdge(int u, int v, double z_m) const {
+    for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+      const cv::Point neighbour = cv::Point(u, v) + step;
+      if (!neighbour.inside(cv::Rect({}, view_.depth_m.size()))) continue;
+      if (std::abs(view_.depth_m.at<float>(neighbour) - z_m) > kEdgeStep * z_m) return true;
+    }
+    return false;
+  }
+
+  double quantised(double z_m) const {
+    if (sensor_.disparity_step_px <= 0.0) return z_m;
+    const double steps = std::round(sensor_.disparity_pxm / z_m / sensor_.disparity_step_px);
+    return sensor_.disparity_pxm / (steps * sensor_.disparity_step_px);
+  }
+
+  const RenderedView& view_;
+  const SensorModel& sensor_;
+  cv::RNG random_;
+  int row_;
+};
+
+}  // namespace
+
+SensorModel kinectSensor() {
+  SensorModel sensor;
+  sensor.min_range_m = 0.4;
+  sensor.max_range_m = 5.0;
+  sensor.sigma_base_m = 0.0012;
+  sensor.sigma_growth_per_m = 0.0019;
+  sensor.sigma_from_m = 0.4;
+  sensor.disparity_pxm = 580.0 * 0.075;
+  sensor.disparity_step_px = 0.125;
+  sensor.lateral_sigma_px = 0.4;
+  sensor.edge_dropout = 0.6;
+  sensor.grazing_cos = 0.2;
+  return sensor;
+}
+
+SensorModel precisionSensor() {
+  SensorModel sensor;
+  sensor.min_range_m = 0.15;
+  sensor.max_range_m = 1.0;
+  sensor.sigma_base_m = 0.00005;
+  sensor.sigma_growth_per_m = 0.00055;
+  sensor.lateral_sigma_px = 0.2;
+  sensor.edge_dropout = 0.6;
+  sensor.grazing_cos = 0.2;
+  return sensor;
+}
+
+cv::Mat senseDepth(const RenderedView& view, const SensorModel& sensor, uint64_t seed) {
+  cv::Mat depth_m(view.depth_m.size(), CV_32FC1);
+  cv::parallel_for_(cv::Range(0, depth_m.rows), [&](const cv::Range& rows) {
+    for (int row = rows.start; row < rows.end; ++row) {
+      RowSensor row_sensor(view, sensor, seed, row);
+      for (int column = 0; column < depth_m.cols; ++column) {
+        depth_m.at<float>(row, column) = row_sensor.sense(column);
+      }
+    }
+  });
+  return depth_m;
+}
+
+cv::Mat idealDepth(const RenderedView& view, const SensorModel& sensor) {
+  cv::Mat depth_m = view.depth_m.clone();
+  depth_m.setTo(0.0f, (depth_m < sensor.min_range_m) | (depth_m > sensor.max_range_m));
+  return depth_m;
+}
+
+}  // namespace depth_fusion

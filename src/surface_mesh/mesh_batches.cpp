@@ -1,0 +1,124 @@
+#include "surface_mesh/mesh_batches.h"
+
+#include <algorithm>
+
+namespace depth_fusion {
+namespace {
+
+constexpr uint64_t kAxisBits[3] = {0x1249249249249249, 0x2492492492492492, 0x4924924924924924};
+
+// The number's bits, three apart.
+uint64_t spread(uint64_t number) {
+  uint64_t bits = 0;
+  for (int bit = 0; bit < 21; ++bit) bits |= (number >> bit & 1) << (3 * bit);
+  return bits;
+}
+
+int gathered(uint64_t bits) {
+  int number = 0;
+  for (int bit = 0; bit < 21; ++bit) number |= static_cast<int>(bits >> (3 * bit) & 1) << bit;
+  return number;
+}
+
+uint64_t mortonCode(const Eigen::Vector3i& index) {
+  return spread(index.x()) | spread(index.y()) << 1 | spread(index.z()) << 2;
+}
+
+uint64_t nextAlong(uint64_t code, int axis) {
+  const uint64_t mask = kAxisBits[axis];
+  return (((code | ~mask) + (uint64_t{1} << axis)) & mask) | (code & ~mask);
+}
+
+}  // namespace
+
+std::vector<MeshBlock> mortonOrderedBlocks(const BlockSparseMap& map) {
+  std::vector<MeshBlock> ordered;
+  for (const BlockSparseMap::Block& block : map.blocks()) {
+    MeshBlock mesh_block;
+    mesh_block.morton_code = mortonCode(block.index - map.origin());
+    mesh_block.slot = block.slot;
+    ordered.push_back(mesh_block);
+  }
+  std::sort(ordered.begin(), ordered.end(),
+            [](const MeshBlock& a, const MeshBlock& b) { return a.morton_code < b.morton_code; });
+  return ordered;
+}
+
+MeshBlockArgs blockArgs(const BlockSparseMap& map, const MeshBlock& block) {
+  MeshBlockArgs args{};
+  for (int axis = 0; axis < 3; ++axis)
+    args.index[axis] = map.origin()[axis] + gathered(block.morton_code >> axis);
+  args.slot = block.slot;
+  args.first_vertex = block.first_vertex;
+  return args;
+}
+
+MeshBatcher::MeshBatcher(const BlockSparseMap& map, const std::vector<MeshBlock>& blocks,
+                         const BatchLimits& limits)
+    : map_(map), blocks_(blocks), limits_(limits), places_(blocks.size(), -1) {}
+
+MeshBatch MeshBatcher::next() {
+  const size_t begin = next_;
+  MeshBatch batch;
+  batch.first_vertex = blocks_[begin].first_vertex;
+  std::vector<Neighbours> core;
+  std::vector<size_t> members;
+  for (; !done() && (next_ == begin || fits(batch, members.size(), blocks_[next_])); ++next_) {
+    core.push_back(neighboursOf(next_));
+    for (const size_t neighbour : core.back()) {
+      if (neighbour == kNowhere || places_[neighbour] >= 0) continue;
+      places_[neighbour] = 0;
+      members.push_back(neighbour);
+    }
+    batch.vertices += blocks_[next_].vertices;
+    batch.triangles += blocks_[next_].triangles;
+  }
+  fill(batch, begin, core, members);
+  return batch;
+}
+
+MeshBatcher::Neighbours MeshBatcher::neighboursOf(size_t block) const {
+  Neighbours neighbours;
+  for (int n = 0; n < 8; ++n) {
+    uint64_t code = blocks_[block].morton_code;
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((n >> axis & 1) != 0) code = nextAlong(code, axis);
+    }
+    const auto found =
+        std::lower_bound(blocks_.begin() + static_cast<std::ptrdiff_t>(block), blocks_.end(), code,
+                         [](const MeshBlock& b, uint64_t c) { return b.morton_code < c; });
+    const bool exists = found != blocks_.end() && found->morton_code == code;
+    neighbours[n] = exists ? static_cast<size_t>(found - blocks_.begin()) : kNowhere;
+  }
+  return neighbours;
+}
+
+bool MeshBatcher::fits(const MeshBatch& batch, size_t members, const MeshBlock& block) const {
+  return members + Neighbours().size() <= limits_.blocks &&
+         batch.vertices + block.vertices <= limits_.vertices &&
+         batch.triangles + block.triangles <= limits_.triangles;
+}
+
+void MeshBatcher::fill(MeshBatch& batch, size_t core_begin, const std::vector<Neighbours>& core,
+                       const std::vector<size_t>& members) {
+  batch.core_blocks = core.size();
+  uint32_t first_triangle = 0;
+  for (size_t block = core_begin; block < next_; ++block) {
+    places_[block] = static_cast<int>(batch.blocks.size());
+    batch.blocks.push_back(blockArgs(map_, blocks_[block]));
+    batch.blocks.back().first_triangle = first_triangle;
+    first_triangle += blocks_[block].triangles;
+  }
+  for (const size_t member : members) {
+    if (member < next_) continue;
+    places_[member] = static_cast<int>(batch.blocks.size());
+    batch.blocks.push_back(blockArgs(map_, blocks_[member]));
+  }
+  for (size_t i = 0; i < core.size(); ++i) {
+    for (int n = 0; n < 8; ++n)
+      batch.blocks[i].neighbours[n] = core[i][n] == kNowhere ? -1 : places_[core[i][n]];
+  }
+  for (const size_t member : members) places_[member] = -1;
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,69 @@
+// The blocks of the map in batches that fit into the scratch memory.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "depth_fusion/map/block_sparse_map.h"
+#include "surface_mesh/mesh_args.h"
+
+namespace depth_fusion {
+
+struct MeshBlock {
+  uint64_t morton_code = 0;  // of the index in the window
+  int slot = 0;
+  uint32_t vertices = 0;
+  uint32_t triangles = 0;
+  uint32_t first_vertex = 0;
+};
+
+// All the blocks of the map along the Morton curve, on which neighbours are mostly near each other.
+std::vector<MeshBlock> mortonOrderedBlocks(const BlockSparseMap& map);
+
+// Index, slot and first vertex; the rest is for the batch to fill in.
+MeshBlockArgs blockArgs(const BlockSparseMap& map, const MeshBlock& block);
+
+struct BatchLimits {
+  size_t blocks = 0;  // at least 8: a block and its neighbours
+  size_t vertices = 0;
+  size_t triangles = 0;
+};
+
+// Core blocks, consecutive in Morton order, followed by the halo: the other blocks to which their cells
+// reach.
+struct MeshBatch {
+  std::vector<MeshBlockArgs> blocks;
+  size_t core_blocks = 0;
+  uint32_t first_vertex = 0;
+  uint32_t vertices = 0;
+  uint32_t triangles = 0;
+};
+
+class MeshBatcher {
+ public:
+  // Keeps references. `blocks` is in Morton order, with counts and first vertices.
+  MeshBatcher(const BlockSparseMap& map, const std::vector<MeshBlock>& blocks, const BatchLimits& limits);
+
+  bool done() const { return next_ == blocks_.size(); }
+  MeshBatch next();
+
+ private:
+  // The block and those beyond its far sides, as MeshBlockArgs numbers them; kNowhere if not in the list.
+  using Neighbours = std::array<size_t, 8>;
+  static constexpr size_t kNowhere = static_cast<size_t>(-1);
+
+  Neighbours neighboursOf(size_t block) const;
+  bool fits(const MeshBatch& batch, size_t members, const MeshBlock& block) const;
+  void fill(MeshBatch& batch, size_t core_begin, const std::vector<Neighbours>& core,
+            const std::vector<size_t>& members);
+
+  const BlockSparseMap& map_;
+  const std::vector<MeshBlock>& blocks_;
+  BatchLimits limits_;
+  std::vector<int> places_;  // in the current batch, -1 = not a member
+  size_t next_ = 0;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,95 @@
+#include "surface_mesh/surface_mesh_kernels.h"
+
+#include <algorithm>
+
+#include "map/map_args.h"
+#include "surface_mesh/marching_cubes_table.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr const char* kPurpose = "the surface mesh";
+constexpr size_t kVolumeScratchBytes = size_t{16} << 20;
+// More than the largest block can need: 3 * 32^3 vertices, 5 * 32^3 triangles.
+constexpr size_t kBatchVertices = size_t{1} << 18;
+constexpr size_t kBatchTriangles = size_t{1} << 19;
+constexpr size_t kRowMaskBytes = 16;
+constexpr size_t kRowBytes = 16;
+
+static_assert(sizeof(MeshBlockArgs) == 56, "MeshBlockArgs is laid out as in kernels");
+static_assert(sizeof(MeshVertex) == 24, "a vertex is six floats in kernels and files");
+static_assert(sizeof(MeshTriangle) == 12, "a triangle is three integers in kernels and files");
+
+size_t fittingBlocks(const MapParameters& map, size_t max_batch_blocks) {
+  const size_t rows = static_cast<size_t>(map.block_size) * map.block_size;
+  const size_t padded = map.block_size + 3;
+  const size_t block_bytes =
+      padded * padded * (padded + kRowMaskBytes) + rows * (kRowBytes + sizeof(uint32_t));
+  return std::min(max_batch_blocks, kVolumeScratchBytes / block_bytes);
+}
+
+}  // namespace
+
+SurfaceMeshKernels::SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& map, int min_weight,
+                                       size_t max_batch_blocks)
+    : map_(map),
+      min_weight_(min_weight),
+      rows_(static_cast<size_t>(map.parameters().block_size) * map.parameters().block_size),
+      padded_rows_(static_cast<size_t>(map.parameters().block_size + 3) * (map.parameters().block_size + 3)),
+      limits_{fittingBlocks(map.parameters(), max_batch_blocks), kBatchVertices, kBatchTriangles},
+      table_(compute, kCubeCases * kCubeCaseBytes, kPurpose),
+      block_args_(compute, limits_.blocks * sizeof(MeshBlockArgs), kPurpose),
+      volume_(compute, limits_.blocks * padded_rows_ * (map.parameters().block_size + 3), kPurpose),
+      row_masks_(compute, limits_.blocks * padded_rows_ * kRowMaskBytes, kPurpose),
+      row_vertices_(compute, limits_.blocks * rows_ * kRowBytes, kPurpose),
+      row_triangles_(compute, limits_.blocks * rows_ * sizeof(uint32_t), kPurpose),
+      totals_(compute, limits_.blocks * sizeof(Totals), kPurpose),
+      vertices_(compute, kBatchVertices * sizeof(MeshVertex), kPurpose),
+      triangles_(compute, kBatchTriangles * sizeof(MeshTriangle), kPurpose),
+      gather_(compute, "surface_mesh/gather_blocks.cl", "gather_blocks", blockSizeOption(map.parameters())),
+      classify_(compute, "surface_mesh/classify_rows.cl", "classify_rows", blockSizeOption(map.parameters())),
+      scan_(compute, "surface_mesh/classify_rows.cl", "scan_rows", blockSizeOption(map.parameters())),
+      emit_vertices_(compute, "surface_mesh/emit_vertices.cl", "emit_vertices",
+                     blockSizeOption(map.parameters())),
+      emit_triangles_(compute, "surface_mesh/emit_triangles.cl", "emit_triangles",
+                      blockSizeOption(map.parameters())) {
+  table_.write(marchingCubesTable());
+}
+
+size_t SurfaceMeshKernels::deviceBytes() const {
+  size_t bytes = 0;
+  for (const DeviceBuffer* buffer : {&table_, &block_args_, &volume_, &row_masks_, &row_vertices_,
+                                     &row_triangles_, &totals_, &vertices_, &triangles_}) {
+    bytes += buffer->bytes();
+  }
+  return bytes;
+}
+
+void SurfaceMeshKernels::classify(const std::vector<MeshBlockArgs>& blocks) {
+  const int count = static_cast<int>(blocks.size());
+  block_args_.write(blocks);
+  gather_.run(blocks.size() * padded_rows_, volume_, row_masks_, map_.voxels(), map_.offsets(), block_args_,
+              count, min_weight_, gridArgs(map_));
+  classify_.run(blocks.size() * rows_, row_vertices_, row_triangles_, row_masks_, table_, count);
+  scan_.run(blocks.size(), row_vertices_, row_triangles_, totals_, count);
+}
+
+std::vector<SurfaceMeshKernels::Totals> SurfaceMeshKernels::totals(size_t count) const {
+  return totals_.read<Totals>(count);
+}
+
+void SurfaceMeshKernels::emitVertices(const MeshBatch& batch, std::vector<MeshVertex>& vertices) {
+  emit_vertices_.run(batch.core_blocks * rows_, vertices_, volume_, row_vertices_, block_args_,
+                     static_cast<int>(batch.core_blocks), batch.first_vertex, map_.parameters().voxel_size_m);
+  vertices.resize(batch.vertices);
+  vertices_.read(vertices.data(), vertices.size() * sizeof(MeshVertex));
+}
+
+void SurfaceMeshKernels::emitTriangles(const MeshBatch& batch, std::vector<MeshTriangle>& triangles) {
+  emit_triangles_.run(batch.core_blocks * rows_, triangles_, row_masks_, row_vertices_, row_triangles_,
+                      table_, block_args_, static_cast<int>(batch.core_blocks));
+  triangles.resize(batch.triangles);
+  triangles_.read(triangles.data(), triangles.size() * sizeof(MeshTriangle));
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,40 @@
+// Typed launches of the surface mesh's kernels, and the memory they share.
+#pragma once
+
+#include "compute/kernel.h"
+#include "depth_fusion/surface_mesh/triangle_mesh.h"
+#include "surface_mesh/mesh_batches.h"
+
+namespace depth_fusion {
+
+class SurfaceMeshKernels {
+ public:
+  struct Totals {
+    uint32_t vertices, triangles;
+  };
+
+  // Allocates memory for batches of up to max_batch_blocks blocks, fewer where that would take too much.
+  SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& map, int min_weight, size_t max_batch_blocks);
+
+  const BatchLimits& limits() const { return limits_; }
+  size_t deviceBytes() const;
+
+  // Gathers and classifies the blocks of a batch.
+  void classify(const std::vector<MeshBlockArgs>& blocks);
+  // Of the blocks classified last.
+  std::vector<Totals> totals(size_t count) const;
+  // Of the batch classified last; the vectors keep their memory from batch to batch.
+  void emitVertices(const MeshBatch& batch, std::vector<MeshVertex>& vertices);
+  void emitTriangles(const MeshBatch& batch, std::vector<MeshTriangle>& triangles);
+
+ private:
+  BlockSparseMap& map_;
+  int min_weight_;
+  size_t rows_, padded_rows_;  // of a block
+  BatchLimits limits_;
+  DeviceBuffer table_, block_args_, volume_, row_masks_, row_vertices_, row_triangles_, totals_, vertices_,
+      triangles_;
+  Kernel gather_, classify_, scan_, emit_vertices_, emit_triangles_;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,65 @@
+// Fills a map, and a dense grid, from a signed distance function.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "depth_fusion/map/block_sparse_map.h"
+#include "reference/reference_marching_cubes.h"
+
+namespace depth_fusion {
+
+using SignedDistance = std::function<double(const Eigen::Vector3d&)>;  // metres, positive in free space
+
+inline int8_t distanceByte(const MapParameters& map, const SignedDistance& distance,
+                           const Eigen::Vector3i& voxel) {
+  const double fraction = distance(voxel.cast<double>() * map.voxel_size_m) / map.truncation_m;
+  return std::abs(fraction) > 1.0 ? int8_t{-128} : static_cast<int8_t>(std::lround(127.0 * fraction));
+}
+
+// Allocates the blocks from `first` on, `count` along each axis, that hold a known voxel, all with the given
+// weight.
+inline void fillMap(BlockSparseMap& map, const SignedDistance& distance, const Eigen::Vector3i& first,
+                    int count, uint8_t weight = 1) {
+  const int m = map.parameters().block_size;
+  const size_t voxels = static_cast<size_t>(m) * m * m;
+  std::vector<BlockSparseMap::BlockIndex> indices;
+  std::vector<std::vector<uint8_t>> contents;
+  for (int block = 0; block < count * count * count; ++block) {
+    const Eigen::Vector3i index =
+        first + Eigen::Vector3i(block % count, block / count % count, block / count / count);
+    std::vector<uint8_t> content(2 * voxels, weight);
+    bool known = false;
+    for (size_t v = 0; v < voxels; ++v) {
+      const int i = static_cast<int>(v);
+      const Eigen::Vector3i voxel = m * index + Eigen::Vector3i(i % m, i / m % m, i / m / m);
+      const int8_t byte = distanceByte(map.parameters(), distance, voxel);
+      content[v] = static_cast<uint8_t>(byte);
+      known = known || byte != -128;
+    }
+    if (!known) continue;
+    indices.push_back(index);
+    contents.push_back(std::move(content));
+  }
+  map.allocate(indices);
+  for (const BlockSparseMap::Block& block : map.blocks()) {
+    for (size_t i = 0; i < indices.size(); ++i) {
+      if (indices[i] == block.index)
+        map.voxels().write(contents[i].data(), 2 * voxels, block.slot * 2 * voxels);
+    }
+  }
+}
+
+inline DenseGrid denseGrid(const MapParameters& map, const SignedDistance& distance,
+                           const Eigen::Vector3i& first_block, int blocks) {
+  DenseGrid grid(map.block_size * first_block, map.block_size * blocks);
+  for (int i = 0; i < grid.size * grid.size * grid.size; ++i) {
+    const Eigen::Vector3i voxel = grid.first_voxel + Eigen::Vector3i(i % grid.size, i / grid.size % grid.size,
+                                                                     i / grid.size / grid.size);
+    grid.at(voxel) = distanceByte(map, distance, voxel);
+  }
+  return grid;
+}
+
+}  // namespace depth_fusion
