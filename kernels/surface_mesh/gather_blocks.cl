@@ -1,4 +1,5 @@
-// Copies the blocks of a batch, each with its border, out of the map. A work-item is one row of one volume.
+// Copies the blocks of a batch, each with its border, out of the map. A work-item is one
+// layer, of equal z, of one volume.
 //   voxels, offsets  the map
 //   blocks           count blocks
 //   volume, row_masks  see batch.h; chi where there is no block or the weight is below min_weight
@@ -62,25 +63,34 @@ inline int slot_of(__global const int *offsets, int3 block, GridArgs grid) {
   return address < 0 ? BLOCK_EMPTY : offsets[address];
 }
 
+// A row of the volume, out of the blocks before, in and after it. `row` is its first voxel's number in the block.
+inline ulong2 gather_padded_row(__global char *out, __global const char *voxels, int3 slots, int row, int min_weight) {
+  const ulong2 own = slots.y < 0 ? fill_row(out + 1) : gather_row(out + 1, voxels, slots.y, row, min_weight);
+  out[0] = known_distance(voxels, slots.x, row + BLOCK_SIZE - 1, min_weight);
+  out[BLOCK_SIZE + 1] = known_distance(voxels, slots.z, row, min_weight);
+  out[BLOCK_SIZE + 2] = known_distance(voxels, slots.z, row + 1, min_weight);
+  return own << (ulong)1 | mask_of_voxel(out[0], 0) | mask_of_voxel(out[BLOCK_SIZE + 1], BLOCK_SIZE + 1) |
+         mask_of_voxel(out[BLOCK_SIZE + 2], BLOCK_SIZE + 2);
+}
+
 __kernel void gather_blocks(__global char *volume, __global ulong2 *row_masks, __global const char *voxels,
                             __global const int *offsets, __global const MeshBlockArgs *blocks, int count,
                             int min_weight, GridArgs grid) {
   const int i = get_global_id(0);
-  if (i >= count * PADDED_ROWS) return;
-  const int y = i % PADDED_ROWS % PADDED_SIZE - 1;
-  const int z = i % PADDED_ROWS / PADDED_SIZE - 1;
-  __global const int *index = blocks[i / PADDED_ROWS].index;
-  const int3 block = (int3)(index[0], index[1] + (y >> BLOCK_SIZE_LOG2), index[2] + (z >> BLOCK_SIZE_LOG2));
-  const int row = ((y & (BLOCK_SIZE - 1)) + BLOCK_SIZE * (z & (BLOCK_SIZE - 1))) * BLOCK_SIZE;
-  __global char *out = volume + i * PADDED_SIZE;
-
-  const int before = slot_of(offsets, block - (int3)(1, 0, 0), grid);
-  const int middle = slot_of(offsets, block, grid);
-  const int after = slot_of(offsets, block + (int3)(1, 0, 0), grid);
-  const ulong2 own = middle < 0 ? fill_row(out + 1) : gather_row(out + 1, voxels, middle, row, min_weight);
-  out[0] = known_distance(voxels, before, row + BLOCK_SIZE - 1, min_weight);
-  out[BLOCK_SIZE + 1] = known_distance(voxels, after, row, min_weight);
-  out[BLOCK_SIZE + 2] = known_distance(voxels, after, row + 1, min_weight);
-  row_masks[i] = own << (ulong)1 | mask_of_voxel(out[0], 0) | mask_of_voxel(out[BLOCK_SIZE + 1], BLOCK_SIZE + 1) |
-                 mask_of_voxel(out[BLOCK_SIZE + 2], BLOCK_SIZE + 2);
+  if (i >= count * PADDED_SIZE) return;
+  const int z = i % PADDED_SIZE - 1;
+  const int3 block = vload3(0, blocks[i / PADDED_SIZE].index) + (int3)(0, 0, z >> BLOCK_SIZE_LOG2);
+  const int layer = (z & (BLOCK_SIZE - 1)) * BLOCK_SIZE * BLOCK_SIZE;
+  int padded_row = i * PADDED_SIZE;
+  for (int dy = -1; dy <= 1; ++dy) {
+    const int3 slots = (int3)(slot_of(offsets, block + (int3)(-1, dy, 0), grid),
+                              slot_of(offsets, block + (int3)(0, dy, 0), grid),
+                              slot_of(offsets, block + (int3)(1, dy, 0), grid));
+    const int first_y = dy < 0 ? BLOCK_SIZE - 1 : 0;
+    const int last_y = dy > 0 ? 1 : BLOCK_SIZE - 1;
+    for (int y = first_y; y <= last_y; ++y, ++padded_row) {
+      row_masks[padded_row] = gather_padded_row(volume + padded_row * PADDED_SIZE, voxels, slots,
+                                                layer + y * BLOCK_SIZE, min_weight);
+    }
+  }
 }

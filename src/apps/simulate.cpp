@@ -1,4 +1,6 @@
 // Records a built-in scene with a simulated RGB-D sensor.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -57,6 +59,16 @@ RgbdFrame asStored(RgbdFrame frame) {
   return frame;
 }
 
+// A line that is overwritten on a terminal, and one in fifty frames elsewhere.
+void showProgress(size_t frame, size_t frames) {
+  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  if (terminal || frame % 50 == 0 || frame == frames) {
+    std::printf("%sframe %zu/%zu%s", terminal ? "\r" : "", frame, frames,
+                terminal && frame < frames ? "" : "\n");
+  }
+  std::fflush(stdout);
+}
+
 void simulate(const Arguments& arguments) {
   SimulatedRecording recording(arguments.simulation);
   const auto writer =
@@ -66,11 +78,10 @@ void simulate(const Arguments& arguments) {
   size_t written = 0;
   while (const std::optional<RgbdFrame> frame = recording.next()) {
     writer->write(asStored(*frame));
-    std::printf("\rframe %zu of %zu", ++written, recording.frameCount());
-    std::fflush(stdout);
+    showProgress(++written, recording.frameCount());
   }
   writer->finish();
-  std::printf("\nwritten to %s\n", arguments.output.c_str());
+  std::printf("written to %s\n", arguments.output.c_str());
 }
 
 }  // namespace
@@ -84,7 +95,7 @@ int main(int argc, char** argv) {
   try {
     depth_fusion::simulate(arguments);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "\nsimulate: %s\n", error.what());
+    std::fprintf(stderr, "%ssimulate: %s\n", isatty(STDOUT_FILENO) != 0 ? "\n" : "", error.what());
     return 1;
   }
   return 0;

@@ -18,7 +18,8 @@ ParameterTable PipelineParameters::table() {
   ParameterTable all;
   for (const auto& [stage, table] :
        {std::make_pair("map", map.table()), std::make_pair("preprocessing", preprocessing.table()),
-        std::make_pair("icp_tracking", icp_tracking.table()), std::make_pair("tsdf_fusion", tsdf_fusion.table())}) {
+        std::make_pair("icp_tracking", icp_tracking.table()), std::make_pair("tsdf_fusion", tsdf_fusion.table()),
+        std::make_pair("surface_mesh", surface_mesh.table())}) {
     const ParameterTable rows = withPrefix(stage, table);
     all.insert(all.end(), rows.begin(), rows.end());
   }

@@ -23,8 +23,7 @@ const SceneEntry& entryOf(const std::string& name) {
   for (const SceneEntry& entry : sceneLibrary()) {
     if (entry.name == name) return entry;
   }
-  throw Error("'" + name + "' is no built-in scene nor a folder written by simulate (with " + kSceneFile +
-              "); the scenes are " + knownNames());
+  throw Error("there is no scene '" + name + "'; the scenes are " + knownNames());
 }
 
 }  // namespace
@@ -49,7 +48,13 @@ void writeSceneName(const std::string& folder, const std::string& name) {
 
 std::string findSceneName(const std::string& folder_or_name) {
   const std::filesystem::path path = std::filesystem::path(folder_or_name) / kSceneFile;
-  if (!std::filesystem::exists(path)) return entryOf(folder_or_name).name;
+  if (!std::filesystem::exists(path)) {
+    const bool is_path = folder_or_name.find('/') != std::string::npos;
+    check(!is_path, path.string() +
+                        " is missing: the scene must be a folder written by simulate, or one of " +
+                        knownNames());
+    return entryOf(folder_or_name).name;
+  }
   try {
     return entryOf(YAML::LoadFile(path.string())["scene"].as<std::string>()).name;
   } catch (const YAML::Exception& exception) {

@@ -35,12 +35,12 @@ SurfaceMeshKernels::SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& 
     : map_(map),
       min_weight_(min_weight),
       rows_(static_cast<size_t>(map.parameters().block_size) * map.parameters().block_size),
-      padded_rows_(static_cast<size_t>(map.parameters().block_size + 3) * (map.parameters().block_size + 3)),
+      padded_size_(static_cast<size_t>(map.parameters().block_size) + 3),
       limits_{fittingBlocks(map.parameters(), max_batch_blocks), kBatchVertices, kBatchTriangles},
       table_(compute, kCubeCases * kCubeCaseBytes, kPurpose),
       block_args_(compute, limits_.blocks * sizeof(MeshBlockArgs), kPurpose),
-      volume_(compute, limits_.blocks * padded_rows_ * (map.parameters().block_size + 3), kPurpose),
-      row_masks_(compute, limits_.blocks * padded_rows_ * kRowMaskBytes, kPurpose),
+      volume_(compute, limits_.blocks * padded_size_ * padded_size_ * padded_size_, kPurpose),
+      row_masks_(compute, limits_.blocks * padded_size_ * padded_size_ * kRowMaskBytes, kPurpose),
       row_vertices_(compute, limits_.blocks * rows_ * kRowBytes, kPurpose),
       row_triangles_(compute, limits_.blocks * rows_ * sizeof(uint32_t), kPurpose),
       totals_(compute, limits_.blocks * sizeof(Totals), kPurpose),
@@ -68,7 +68,7 @@ size_t SurfaceMeshKernels::deviceBytes() const {
 void SurfaceMeshKernels::classify(const std::vector<MeshBlockArgs>& blocks) {
   const int count = static_cast<int>(blocks.size());
   block_args_.write(blocks);
-  gather_.run(blocks.size() * padded_rows_, volume_, row_masks_, map_.voxels(), map_.offsets(), block_args_,
+  gather_.run(blocks.size() * padded_size_, volume_, row_masks_, map_.voxels(), map_.offsets(), block_args_,
               count, min_weight_, gridArgs(map_));
   classify_.run(blocks.size() * rows_, row_vertices_, row_triangles_, row_masks_, table_, count);
   scan_.run(blocks.size(), row_vertices_, row_triangles_, totals_, count);

@@ -30,7 +30,8 @@ class SurfaceMeshKernels {
  private:
   BlockSparseMap& map_;
   int min_weight_;
-  size_t rows_, padded_rows_;  // of a block
+  size_t rows_;         // of a block
+  size_t padded_size_;  // voxels per axis of a gathered block
   BatchLimits limits_;
   DeviceBuffer table_, block_args_, volume_, row_masks_, row_vertices_, row_triangles_, totals_, vertices_,
       triangles_;

@@ -10,6 +10,7 @@
 
 namespace depth_fusion {
 
+using VoxelWeight = std::function<uint8_t(const Eigen::Vector3i&)>;
 using SignedDistance = std::function<double(const Eigen::Vector3d&)>;  // metres, positive in free space
 
 inline int8_t distanceByte(const MapParameters& map, const SignedDistance& distance,
@@ -20,8 +21,9 @@ inline int8_t distanceByte(const MapParameters& map, const SignedDistance& dista
 
 // Allocates the blocks from `first` on, `count` along each axis, that hold a known voxel, all with the given
 // weight.
-inline void fillMap(BlockSparseMap& map, const SignedDistance& distance, const Eigen::Vector3i& first,
-                    int count, uint8_t weight = 1) {
+inline void fillMap(
+    BlockSparseMap& map, const SignedDistance& distance, const Eigen::Vector3i& first, int count,
+    const VoxelWeight& weight = [](const Eigen::Vector3i&) { return uint8_t{1}; }) {
   const int m = map.parameters().block_size;
   const size_t voxels = static_cast<size_t>(m) * m * m;
   std::vector<BlockSparseMap::BlockIndex> indices;
@@ -29,13 +31,14 @@ inline void fillMap(BlockSparseMap& map, const SignedDistance& distance, const E
   for (int block = 0; block < count * count * count; ++block) {
     const Eigen::Vector3i index =
         first + Eigen::Vector3i(block % count, block / count % count, block / count / count);
-    std::vector<uint8_t> content(2 * voxels, weight);
+    std::vector<uint8_t> content(2 * voxels);
     bool known = false;
     for (size_t v = 0; v < voxels; ++v) {
       const int i = static_cast<int>(v);
       const Eigen::Vector3i voxel = m * index + Eigen::Vector3i(i % m, i / m % m, i / m / m);
       const int8_t byte = distanceByte(map.parameters(), distance, voxel);
       content[v] = static_cast<uint8_t>(byte);
+      content[voxels + v] = weight(voxel);
       known = known || byte != -128;
     }
     if (!known) continue;
@@ -54,11 +57,8 @@ inline void fillMap(BlockSparseMap& map, const SignedDistance& distance, const E
 inline DenseGrid denseGrid(const MapParameters& map, const SignedDistance& distance,
                            const Eigen::Vector3i& first_block, int blocks) {
   DenseGrid grid(map.block_size * first_block, map.block_size * blocks);
-  for (int i = 0; i < grid.size * grid.size * grid.size; ++i) {
-    const Eigen::Vector3i voxel = grid.first_voxel + Eigen::Vector3i(i % grid.size, i / grid.size % grid.size,
-                                                                     i / grid.size / grid.size);
-    grid.at(voxel) = distanceByte(map, distance, voxel);
-  }
+  grid.forEachVoxel(
+      [&](const Eigen::Vector3i& voxel) { grid.at(voxel) = distanceByte(map, distance, voxel); });
   return grid;
 }
 

@@ -21,6 +21,14 @@ struct DenseGrid {
   DenseGrid(const Eigen::Vector3i& first, int voxels_per_axis)
       : first_voxel(first), size(voxels_per_axis), distances(static_cast<size_t>(size) * size * size, -128) {}
 
+  template <class Visit>
+  void forEachVoxel(const Visit& visit) const {
+    for (int z = 0; z < size; ++z) {
+      for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) visit(Eigen::Vector3i(first_voxel + Eigen::Vector3i(x, y, z)));
+      }
+    }
+  }
   bool contains(const Eigen::Vector3i& voxel) const {
     const Eigen::Array3i local = (voxel - first_voxel).array();
     return (local >= 0).all() && (local < size).all();
@@ -39,11 +47,7 @@ class ReferenceMarchingCubes {
  public:
   ReferenceMarchingCubes(const DenseGrid& grid, double voxel_size_m)
       : grid_(grid), voxel_size_m_(voxel_size_m) {
-    for (int z = 0; z < grid.size; ++z) {
-      for (int y = 0; y < grid.size; ++y) {
-        for (int x = 0; x < grid.size; ++x) addCell(grid.first_voxel + Eigen::Vector3i(x, y, z));
-      }
-    }
+    grid.forEachVoxel([&](const Eigen::Vector3i& cell) { addCell(cell); });
   }
 
   const TriangleMesh& mesh() const { return mesh_; }

@@ -230,16 +230,51 @@ TEST_F(SurfaceMesh, smallBatchesGiveTheSameBytes) {
   EXPECT_TRUE(sameBytes(whole, meshOf(map)));
 }
 
-TEST_F(SurfaceMesh, voxelsBelowTheMinimumWeightAreUnknown) {
-  BlockSparseMap map(compute(), parameters(8));
-  fillMap(map, sphere(Eigen::Vector3d::Zero(), 0.05), Eigen::Vector3i::Constant(-2), 4, 200);
+TEST_P(SurfaceMeshOfBlockSize, voxelsBelowTheMinimumWeightAreUnknown) {
+  const int m = GetParam();
+  const int blocks = std::max(2, 32 / m);
+  const Eigen::Vector3i first = Eigen::Vector3i::Constant(-blocks / 2);
+  const SignedDistance ball = sphere({0.001, 0.002, -0.003}, 0.05);
+  const VoxelWeight weight = [](const Eigen::Vector3i& v) {
+    return static_cast<uint8_t>(191 +
+                                (static_cast<unsigned>(v.x() * 73 + v.y() * 179 + v.z() * 283) >> 3) % 32);
+  };
+  BlockSparseMap map(compute(), parameters(m));
+  fillMap(map, ball, first, blocks, weight);
+  DenseGrid grid = denseGrid(map.parameters(), ball, first, blocks);
+  grid.forEachVoxel([&](const Eigen::Vector3i& voxel) {
+    if (weight(voxel) < 200) grid.at(voxel) = -128;
+  });
   SurfaceMeshParameters parameters;
   parameters.min_weight = 200;
-  EXPECT_GT(meshOf(map, parameters).triangles.size(), 0u);
-  parameters.min_weight = 201;
-  EXPECT_EQ(meshOf(map, parameters).vertices.size(), 0u);
+  const TriangleMesh mesh = meshOf(map, parameters);
+  EXPECT_GT(mesh.triangles.size(), 0u);
+  expectSameMesh(mesh, ReferenceMarchingCubes(grid, map.parameters().voxel_size_m).mesh(),
+                 map.parameters().voxel_size_m);
+}
+
+TEST_F(SurfaceMesh, parametersOutOfRangeAreErrors) {
+  BlockSparseMap map(compute(), parameters(8));
+  SurfaceMeshParameters parameters;
   parameters.min_weight = 256;
   EXPECT_THROW(meshOf(map, parameters), Error);
+  parameters = {};
+  parameters.max_batch_blocks = 7;
+  EXPECT_THROW(meshOf(map, parameters), Error);
+}
+
+TEST_F(SurfaceMesh, failingSinkIsAnError) {
+  struct FullSink final : MeshSink {
+    void begin(const MeshSize&) override {}
+    void addVertices(const MeshVertex*, size_t) override { throw Error("full"); }
+    void addTriangles(const MeshTriangle*, size_t) override {}
+    void finish() override { FAIL() << "finished after a failure"; }
+  };
+  BlockSparseMap map(compute(), parameters(8));
+  fillMap(map, sphere(Eigen::Vector3d::Zero(), 0.05), Eigen::Vector3i::Constant(-2), 4);
+  FullSink sink;
+  EXPECT_THROW(exportSurfaceMesh(compute(), map, sink), Error);
+  EXPECT_GT(meshOf(map).triangles.size(), 0u);
 }
 
 TEST_F(SurfaceMesh, emptyMapGivesAnEmptyMesh) {

@@ -5,6 +5,7 @@
 
 #include "depth_fusion/icp_tracking/icp_tracker.h"
 #include "depth_fusion/model_view/model_view.h"
+#include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
 
 namespace depth_fusion {
@@ -14,6 +15,7 @@ struct PipelineParameters {
   PreprocessingParameters preprocessing;
   IcpTrackingParameters icp_tracking;
   FusionParameters tsdf_fusion;
+  SurfaceMeshParameters surface_mesh;
 
   // The rows of all the stages, named "<stage>/<name>".
   ParameterTable table();

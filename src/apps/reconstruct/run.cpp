@@ -12,6 +12,7 @@
 #include "apps/reconstruct/report.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/surface_mesh/ply.h"
 #include "ros/recording.h"
 
 namespace depth_fusion {
@@ -34,6 +35,7 @@ class Run {
   void noteResult(const RgbdFrame& frame, const FrameResult& result);
   void showProgress(bool last);
   void writeResults();
+  void writeMesh(const std::string& path);
   // Does one thing of many that should all be tried; a failure is said and remembered.
   void attempt(const std::function<void()>& action);
   void complain(const std::string& message);
@@ -138,9 +140,19 @@ void Run::writeResults() {
   const std::string folder = options_.output + "/";
   const size_t tracking_peak_rss_bytes = peakRssBytes();
   attempt([&] { writeTrajectory(folder + "trajectory.txt", trajectory_); });
+  if (!options_.no_mesh) attempt([&] { writeMesh(folder + "mesh.ply"); });
   attempt([&] {
     writeReport(folder + "report.json", options_.input, compute_, *pipeline_, counts_, tracking_peak_rss_bytes);
   });
+}
+
+void Run::writeMesh(const std::string& path) {
+  const StageTimers::Scope timer(pipeline_->timers(), "surface_mesh");
+  PlyWriter writer(path);
+  const MeshStatistics mesh =
+      exportSurfaceMesh(compute_, pipeline_->map(), writer, options_.parameters.surface_mesh);
+  std::cout << path << ": " << mesh.size.vertices << " vertices, " << mesh.size.triangles << " triangles"
+            << std::endl;
 }
 
 void Run::attempt(const std::function<void()>& action) {

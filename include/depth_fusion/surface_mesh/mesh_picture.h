@@ -1,0 +1,29 @@
+// Pictures of meshes, drawn in software.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "depth_fusion/geometry/camera_intrinsics.h"
+#include "depth_fusion/geometry/pose.h"
+#include "depth_fusion/surface_mesh/triangle_mesh.h"
+
+namespace depth_fusion {
+
+// The triangles in front of the camera, lit from the camera, bluish grey seen from free space and red seen
+// from behind. Triangles that reach behind the camera are left out. CV_8UC3, BGR.
+cv::Mat renderMesh(const TriangleMesh& mesh, const CameraIntrinsics& camera, const Pose& T_W_C);
+
+// A camera of the given size and field of view with its principal point in the middle.
+CameraIntrinsics pictureCamera(int width, int height, double horizontal_view_rad);
+
+// Names for viewOf, the default first.
+const std::vector<std::string>& viewNames();
+
+// A pose from which the camera sees the mesh, but for one vertex in a hundred. The mesh is taken to be in the
+// frame of its first camera (x right, y down, z forward): "auto" looks forward and down from behind, the
+// others along an axis. Throws Error for another name, and for a mesh without vertices.
+Pose viewOf(const TriangleMesh& mesh, const CameraIntrinsics& camera, const std::string& name);
+
+}  // namespace depth_fusion

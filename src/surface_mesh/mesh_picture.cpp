@@ -1,0 +1,123 @@
+#include "depth_fusion/surface_mesh/mesh_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace depth_fusion {
+namespace {
+
+constexpr float kNearest_m = 1e-3f;
+const cv::Vec3f kBackground(38.0f, 32.0f, 28.0f);
+const cv::Vec3f kFront(225.0f, 212.0f, 200.0f);
+const cv::Vec3f kBack(70.0f, 80.0f, 190.0f);
+constexpr float kAmbient = 0.15f;
+constexpr int kSubpixels = 2;  // each pixel is the mean of 2x2
+
+struct Corner {
+  float u, v;            // pixels
+  float inverse_depth;   // 1 / z, linear over the picture
+  float shade_by_depth;  // brightness / z, too
+};
+
+struct Canvas {
+  int width, height;
+  std::vector<float> inverse_depths;
+  std::vector<cv::Vec3f> colours;
+
+  Canvas(int w, int h)
+      : width(w),
+        height(h),
+        inverse_depths(static_cast<size_t>(w) * h, 0.0f),
+        colours(static_cast<size_t>(w) * h, kBackground) {}
+};
+
+CameraIntrinsics magnified(const CameraIntrinsics& camera, int factor) {
+  return {camera.width * factor, camera.height * factor,           camera.fx * factor,
+          camera.fy * factor,    (camera.cx + 0.5) * factor - 0.5, (camera.cy + 0.5) * factor - 0.5};
+}
+
+std::vector<Corner> projectVertices(const TriangleMesh& mesh, const CameraIntrinsics& camera,
+                                    const Pose& T_W_C) {
+  const Eigen::Isometry3f T_C_W = T_W_C.inverse().cast<float>();
+  std::vector<Corner> corners;
+  corners.reserve(mesh.vertices.size());
+  for (const MeshVertex& vertex : mesh.vertices) {
+    const Eigen::Vector3f p_C = T_C_W * vertex.position_W;
+    const Eigen::Vector3f normal_C = T_C_W.linear() * vertex.normal_W;
+    const float inverse_depth = p_C.z() > kNearest_m ? 1.0f / p_C.z() : 0.0f;
+    const float towards_camera = std::abs(normal_C.dot(p_C.normalized()));
+    const float shade = kAmbient + (1.0f - kAmbient) * towards_camera;
+    corners.push_back(
+        {static_cast<float>(camera.fx) * p_C.x() * inverse_depth + static_cast<float>(camera.cx),
+         static_cast<float>(camera.fy) * p_C.y() * inverse_depth + static_cast<float>(camera.cy),
+         inverse_depth, shade * inverse_depth});
+  }
+  return corners;
+}
+
+// Twice the area of the triangle a, b, (u, v); positive if clockwise in the picture, where v points down.
+float area(const Corner& a, const Corner& b, float u, float v) {
+  return (b.u - a.u) * (v - a.v) - (b.v - a.v) * (u - a.u);
+}
+
+void drawPixel(Canvas& canvas, const Corner (&t)[3], float whole, int u, int v) {
+  const auto fu = static_cast<float>(u);
+  const auto fv = static_cast<float>(v);
+  const float w0 = area(t[1], t[2], fu, fv) / whole;
+  const float w1 = area(t[2], t[0], fu, fv) / whole;
+  const float w2 = 1.0f - w0 - w1;
+  if (w0 < 0.0f || w1 < 0.0f || w2 < 0.0f) return;
+  const float inverse_depth = w0 * t[0].inverse_depth + w1 * t[1].inverse_depth + w2 * t[2].inverse_depth;
+  const size_t pixel = static_cast<size_t>(v) * canvas.width + u;
+  if (inverse_depth <= canvas.inverse_depths[pixel]) return;
+  canvas.inverse_depths[pixel] = inverse_depth;
+  const float shade =
+      (w0 * t[0].shade_by_depth + w1 * t[1].shade_by_depth + w2 * t[2].shade_by_depth) / inverse_depth;
+  canvas.colours[pixel] = (whole < 0.0f ? kFront : kBack) * shade;
+}
+
+void drawTriangle(Canvas& canvas, const Corner (&t)[3]) {
+  const float whole = area(t[0], t[1], t[2].u, t[2].v);
+  if (whole == 0.0f) return;
+  const auto u = std::minmax({t[0].u, t[1].u, t[2].u});
+  const auto v = std::minmax({t[0].v, t[1].v, t[2].v});
+  const float right = std::min(u.second, static_cast<float>(canvas.width - 1));
+  const float bottom = std::min(v.second, static_cast<float>(canvas.height - 1));
+  for (auto y = static_cast<int>(std::ceil(std::max(v.first, 0.0f))); y <= bottom; ++y) {
+    for (auto x = static_cast<int>(std::ceil(std::max(u.first, 0.0f))); x <= right; ++x) {
+      drawPixel(canvas, t, whole, x, y);
+    }
+  }
+}
+
+cv::Mat averaged(const Canvas& canvas, int width, int height) {
+  cv::Mat picture(height, width, CV_8UC3);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      cv::Vec3f sum(0.0f, 0.0f, 0.0f);
+      for (int i = 0; i < kSubpixels * kSubpixels; ++i) {
+        const int row = kSubpixels * v + i / kSubpixels;
+        sum += canvas.colours[static_cast<size_t>(row) * canvas.width + kSubpixels * u + i % kSubpixels];
+      }
+      picture.at<cv::Vec3b>(v, u) = sum / static_cast<float>(kSubpixels * kSubpixels);
+    }
+  }
+  return picture;
+}
+
+}  // namespace
+
+cv::Mat renderMesh(const TriangleMesh& mesh, const CameraIntrinsics& camera, const Pose& T_W_C) {
+  const CameraIntrinsics fine = magnified(camera, kSubpixels);
+  const std::vector<Corner> corners = projectVertices(mesh, fine, T_W_C);
+  Canvas canvas(fine.width, fine.height);
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    const Corner t[3] = {corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]};
+    if (t[0].inverse_depth > 0.0f && t[1].inverse_depth > 0.0f && t[2].inverse_depth > 0.0f)
+      drawTriangle(canvas, t);
+  }
+  return averaged(canvas, camera.width, camera.height);
+}
+
+}  // namespace depth_fusion
