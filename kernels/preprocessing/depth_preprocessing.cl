@@ -77,8 +77,10 @@ __kernel void halve_depth(__global const float *depth, __global float *half_dept
   half_depth[pixel_index(x, y, half_camera)] = count > 0 ? sum / count : 0.0f;
 }
 
-// Unit normals towards the camera from central differences; 0 where a neighbour is missing or the depth jumps.
+// Unit normals towards the camera from a plane fitted to the depth's 3x3 neighbours NORMAL_STEP pixels apart; 0 where a
+// neighbour is missing or the depth jumps.
 //   normals  three planes x, y, z of `plane` elements
+#define NORMAL_STEP 2
 __kernel void compute_normals(__global const float *depth, __global float *normals, CameraArgs camera, int plane,
                               float max_relative_step) {
   const int x = get_global_id(0) * SIMD_WIDTH;
@@ -86,21 +88,27 @@ __kernel void compute_normals(__global const float *depth, __global float *norma
   if (x >= camera.width) return;
   const int index = pixel_index(x, y, camera);
   vfloat nx = 0.0f, ny = 0.0f, nz = 0.0f;
-  if (y > 0 && y < camera.height - 1) {
+  if (y >= NORMAL_STEP && y < camera.height - NORMAL_STEP) {
     const vfloat z = VLOAD(depth + index);
-    const vfloat left = VLOAD(depth + index - 1), right = VLOAD(depth + index + 1);
-    const vfloat above = VLOAD(depth + index - camera.pitch), below = VLOAD(depth + index + camera.pitch);
     const vfloat limit = max_relative_step * z;
-    const vint good = (z > 0.0f) & (fabs(left - z) < limit) & (fabs(right - z) < limit) &
-                      (fabs(above - z) < limit) & (fabs(below - z) < limit);
-    const vfloat dz_du = 0.5f * (right - left);
-    const vfloat dz_dv = 0.5f * (below - above);
+    vint good = z > 0.0f;
+    vfloat dz_du = 0.0f, dz_dv = 0.0f;
+    for (int dv = -1; dv <= 1; ++dv) {
+      for (int du = -1; du <= 1; ++du) {
+        const vfloat neighbour = VLOAD(depth + index + NORMAL_STEP * (dv * camera.pitch + du));
+        good = good & (fabs(neighbour - z) < limit);
+        dz_du += du * neighbour;
+        dz_dv += dv * neighbour;
+      }
+    }
+    dz_du *= 1.0f / (6 * NORMAL_STEP);
+    dz_dv *= 1.0f / (6 * NORMAL_STEP);
     const vfloat u = TO_VFLOAT(x + LANE_INDICES) - camera.cx;
     const float v = (float)y - camera.cy;
     nx = camera.fx * dz_du;
     ny = camera.fy * dz_dv;
     nz = -(z + u * dz_du + v * dz_dv);
-    const vfloat scale = select((vfloat)(0.0f), rsqrt(nx * nx + ny * ny + nz * nz), good);
+    const vfloat scale = rsqrt(nx * nx + ny * ny + nz * nz);
     nx = select((vfloat)(0.0f), nx * scale, good);
     ny = select((vfloat)(0.0f), ny * scale, good);
     nz = select((vfloat)(0.0f), nz * scale, good);

@@ -29,7 +29,7 @@ void TsdfFusion::Kernels::listVisibleBlocks(const DepthFrame& frame, BlockSparse
 void TsdfFusion::Kernels::integrateBlocks(const DepthFrame& frame, BlockSparseMap& map, const DeviceBuffer& visible,
                                           int visible_count, const Pose& T_D_W, const FusionArgs& args) {
   integrate_.run(visible_count * items_per_block_, map.voxels(), visible, visible_count, map.blockIndices(),
-                 map.blockStates(), frame.raw_depth, toArgs(frame.levels[0].camera), toArgs(T_D_W), gridArgs(map),
+                 map.blockStates(), frame.levels[0].depth, toArgs(frame.levels[0].camera), toArgs(T_D_W), gridArgs(map),
                  args);
 }
 
