@@ -53,9 +53,11 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
              (cosine > args.min_normal_cosine);
     if (!ANY(inlier)) continue;
 
-    const vfloat sigma = sensor_sigma_m(depth) / SENSOR_SIGMA_A;
-    const vfloat weight = select((vfloat)(0.0f), 1.0f / (sigma * sigma), inlier);
     const vfloat residual = nx * dx + ny * dy + nz * dz;
+    const vfloat sigma_m = sensor_sigma_m(depth);
+    const vfloat huber = min(args.huber_sigmas * sigma_m / max(fabs(residual), (vfloat)(1e-6f)), (vfloat)(1.0f));
+    const vfloat weight =
+        select((vfloat)(0.0f), huber * (SENSOR_SIGMA_A * SENSOR_SIGMA_A) / (sigma_m * sigma_m), inlier);
     const vfloat jacobian[6] = {py * nz - pz * ny, pz * nx - px * nz, px * ny - py * nx, nx, ny, nz};
     int k = 0;
     for (int i = 0; i < 6; ++i) {

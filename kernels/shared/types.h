@@ -71,6 +71,7 @@ typedef struct {
 typedef struct {
   float max_distance_m;
   float min_normal_cosine;
+  float huber_sigmas;  // residual, in standard deviations of the sensor, from which a match's weight falls
   int source_plane, model_plane;  // elements from one component of the normals to the next
 } MatchingArgs;
 

@@ -40,6 +40,7 @@
   STRUCT(MatchingArgs)                       \
   MEMBER(MatchingArgs, max_distance_m)       \
   MEMBER(MatchingArgs, min_normal_cosine)    \
+  MEMBER(MatchingArgs, huber_sigmas)         \
   MEMBER(MatchingArgs, source_plane)         \
   MEMBER(MatchingArgs, model_plane)
 

@@ -1,6 +1,5 @@
 #include "icp_tracking/icp_system.h"
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
 
@@ -9,9 +8,7 @@
 namespace depth_fusion {
 
 double IcpSystem::rmse() const {
-  // normals have unit length, so that the trace of the translation block is the sum of the weights
-  const double weights = hessian.bottomRightCorner<3, 3>().trace();
-  return weights > 0.0 ? std::sqrt(squared_residuals / weights) : 0.0;
+  return weights() > 0.0 ? std::sqrt(squared_residuals / weights()) : 0.0;
 }
 
 IcpSystem sumRows(const std::vector<float>& partial_sums) {
@@ -29,13 +26,6 @@ IcpSystem sumRows(const std::vector<float>& partial_sums) {
   system.inliers = sums[next++];
   system.source_points = sums[next];
   return system;
-}
-
-std::optional<Vector6d> solve(const IcpSystem& system) {
-  const Eigen::LDLT<Matrix6d> factors(system.hessian);
-  const double largest = system.hessian.diagonal().maxCoeff();
-  if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 1e-9 * largest)) return std::nullopt;
-  return factors.solve(-system.gradient);
 }
 
 }  // namespace depth_fusion

@@ -1,7 +1,6 @@
 // The 6x6 system of one ICP iteration.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "depth_fusion/geometry/pose.h"
@@ -15,13 +14,12 @@ struct IcpSystem {
   double squared_residuals = 0.0;  // weighted
   double inliers = 0.0;
   double source_points = 0.0;
+  // normals have unit length, so that the trace of the translation block is the sum of the weights
+  double weights() const { return hessian.bottomRightCorner<3, 3>().trace(); }
   double rmse() const;  // metres, weighted
 };
 
 // Adds up the rows' partial sums (ICP_SUMS each), in double and in order, so that the result is repeatable.
 IcpSystem sumRows(const std::vector<float>& partial_sums);
-
-// The twist that solves the system, or nothing if it is not positive definite.
-std::optional<Vector6d> solve(const IcpSystem& system);
 
 }  // namespace depth_fusion

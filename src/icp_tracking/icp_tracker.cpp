@@ -1,9 +1,13 @@
 #include "depth_fusion/icp_tracking/icp_tracker.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <sstream>
 
+#include "depth_fusion/compute/device_image.h"
+#include "icp_tracking/degeneracy.h"
 #include "icp_tracking/icp_tracking_kernels.h"
 
 namespace depth_fusion {
@@ -27,6 +31,74 @@ std::string lostReason(const TrackingResult& result, const IcpSystem& system, co
   return reason.str();
 }
 
+// The box that the frame's points would fill evenly with the mean and spread that they have, seen from M. They count by
+// the sensor's accuracy, as they do in the system: a few points far away would make the box large and all rotations weak.
+Eigen::AlignedBox3d spreadBox(const DepthLevel& coarsest, const Pose& T_M_D) {
+  const CameraIntrinsics& camera = coarsest.camera;
+  const cv::Mat depth = readImage(coarsest.depth, camera, 1);
+  double weights = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  for (int v = 0; v < depth.rows; ++v) {
+    for (int u = 0; u < depth.cols; ++u) {
+      const double z = depth.at<float>(v, u);
+      if (z <= 0.0) continue;
+      const Eigen::Vector3d p = T_M_D * (z * Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0));
+      const double beyond = z - SENSOR_SIGMA_C;
+      const double sigma = SENSOR_SIGMA_A + SENSOR_SIGMA_B * beyond * beyond;
+      const double weight = 1.0 / (sigma * sigma);
+      weights += weight;
+      sum += weight * p;
+      squares += weight * p.cwiseAbs2();
+    }
+  }
+  if (weights <= 0.0) return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()};
+  const Eigen::Vector3d mean = sum / weights;
+  const Eigen::Vector3d half_size = (3.0 * (squares / weights - mean.cwiseAbs2())).cwiseMax(0.0).cwiseSqrt();
+  return {mean - half_size, mean + half_size};
+}
+
+// A prior in the frame of the system, M.
+struct SystemPrior {
+  Pose T_M_D;
+  std::optional<Matrix6d> information;
+};
+
+SystemPrior toSystem(const MotionPrior& prior, const Pose& T_M_W) {
+  SystemPrior result{orthonormalized(T_M_W * prior.T_W_D), std::nullopt};
+  if (!prior.covariance) return result;
+  const Matrix6d to_system = adjoint(T_M_W);
+  result.information = Matrix6d(to_system * *prior.covariance * to_system.transpose()).inverse();
+  return result;
+}
+
+struct Solution {
+  Vector6d twist;
+  Matrix6d covariance;
+};
+
+// The information that the matches hold. Neighbouring ones share their errors, so that `correlated` count as one.
+IcpSystem weighed(const IcpSystem& system, double correlated) {
+  const double scale = 1.0 / (static_cast<double>(SENSOR_SIGMA_A) * SENSOR_SIGMA_A * correlated);
+  IcpSystem result = system;
+  result.hessian *= scale;
+  result.gradient *= scale;
+  return result;
+}
+
+// Without a measured prior a variance of 1 stands for "not known" in the free directions.
+Solution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const SystemPrior& prior, double correlated) {
+  const IcpSystem system = weighed(analysis.constrained(), correlated);
+  if (!prior.information) {
+    const Matrix6d information = system.hessian + Matrix6d::Identity();
+    return {analysis.solve(), information.inverse()};
+  }
+  const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
+  const Matrix6d information = system.hessian + *prior.information;
+  const Vector6d gradient = system.gradient + *prior.information * deviation;
+  return {information.ldlt().solve(-gradient), information.inverse()};
+}
+
 }  // namespace
 
 ParameterTable IcpTrackingParameters::table() {
@@ -37,6 +109,12 @@ ParameterTable IcpTrackingParameters::table() {
       {"coarse_distance_m", &coarse_distance_m, 1e-4, 10.0, "largest distance of a match at a quarter of the size"},
       {"fine_distance_m", &fine_distance_m, 1e-4, 10.0, "largest distance of a match at full size"},
       {"max_normal_angle_rad", &max_normal_angle_rad, 0.01, 1.5707, "largest angle between the normals of a match"},
+      {"huber_sigmas", &huber_sigmas, 0.1, 1000.0,
+       "residual, in standard deviations of the sensor, from which a match's weight falls"},
+      {"degeneracy_threshold", &degeneracy_threshold, 0.0, 1.0,
+       "eigenvalue a match, in the unit cube, up to which a direction is left to the prior (the paper's theta)"},
+      {"correlated_points", &correlated_points, 1.0, 1e6,
+       "matches that count as one measurement against a prior, for their errors are alike"},
       {"convergence_rad", &convergence_rad, 0.0, 1.0, "rotation of a step below which a level has converged"},
       {"convergence_m", &convergence_m, 0.0, 1.0, "translation of a step below which a level has converged"},
       {"min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0, "of the frame's points; lost below"},
@@ -56,31 +134,33 @@ IcpTracker::IcpTracker(ComputeContext& compute, const IcpTrackingParameters& par
 
 IcpTracker::~IcpTracker() = default;
 
-TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view, const Pose& T_W_D_prior,
+TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior,
                                  StageTimers& timers) {
   const StageTimers::Scope timer(timers, "icp_tracking");
-  const Pose T_M_W = view.T_W_D.inverse();
-  const Pose T_M_prior = T_M_W * T_W_D_prior;
+  const SystemPrior system_prior = toSystem(prior, view.T_W_D.inverse());
+  const Eigen::AlignedBox3d box = spreadBox(frame.levels.back(), system_prior.T_M_D);
   const std::array<int, 3> iterations = {parameters_.fine_iterations, parameters_.middle_iterations,
                                          parameters_.coarse_iterations};
   const float distance_ratio = std::sqrt(parameters_.coarse_distance_m / parameters_.fine_distance_m);
-  const float min_cosine = std::cos(parameters_.max_normal_angle_rad);
 
   TrackingResult result;
   IcpSystem system;
-  Pose T_M_D = T_M_prior;
+  Pose T_M_D = system_prior.T_M_D;
   for (int level = static_cast<int>(frame.levels.size()) - 1; level >= 0; --level) {
-    const float max_distance_m = parameters_.fine_distance_m * std::pow(distance_ratio, static_cast<float>(level));
+    const MatchGates gates{parameters_.fine_distance_m * std::pow(distance_ratio, static_cast<float>(level)),
+                           std::cos(parameters_.max_normal_angle_rad), parameters_.huber_sigmas};
     for (int i = 0; i < iterations[level]; ++i) {
-      system = kernels_->accumulateSystem(frame.levels[level], view, T_M_D, max_distance_m, min_cosine, partial_sums_);
+      system = kernels_->accumulateSystem(frame.levels[level], view, T_M_D, gates, partial_sums_);
       ++result.iterations;
-      const std::optional<Vector6d> twist = solve(system);
-      if (!twist) {
-        result.reason = "the geometry seen does not determine the motion";
-        return result;
-      }
-      T_M_D = poseFromTwist(*twist) * T_M_D;
-      if (twist->head<3>().norm() < parameters_.convergence_rad && twist->tail<3>().norm() < parameters_.convergence_m) {
+      if (system.inliers < 6.0) break;
+      const DegeneracyAnalysis analysis(system, box, parameters_.degeneracy_threshold);
+      const Solution solution = solve(analysis, T_M_D, system_prior, parameters_.correlated_points);
+      T_M_D = poseFromTwist(solution.twist) * T_M_D;
+      result.reason = analysis.freeDirectionNames();
+      result.smallest_eigenvalue = analysis.smallestEigenvalue();
+      result.covariance = solution.covariance;
+      if (solution.twist.head<3>().norm() < parameters_.convergence_rad &&
+          solution.twist.tail<3>().norm() < parameters_.convergence_m) {
         break;
       }
     }
@@ -89,8 +169,14 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
   result.inlier_fraction = system.source_points > 0.0 ? system.inliers / system.source_points : 0.0;
   result.rmse_m = system.rmse();
   result.T_W_D = orthonormalized(view.T_W_D * T_M_D);
-  result.reason = lostReason(result, system, T_M_prior.inverse() * T_M_D, parameters_);
-  result.status = result.reason.empty() ? TrackingStatus::kTracking : TrackingStatus::kLost;
+  const Matrix6d to_world = adjoint(view.T_W_D);
+  result.covariance = to_world * result.covariance * to_world.transpose();
+  const std::string lost = lostReason(result, system, system_prior.T_M_D.inverse() * T_M_D, parameters_);
+  if (!lost.empty()) {
+    result.reason = lost;
+  } else {
+    result.status = result.reason.empty() ? TrackingStatus::kTracking : TrackingStatus::kDegenerate;
+  }
   return result;
 }
 

@@ -10,9 +10,10 @@ IcpTracker::Kernels::Kernels(ComputeContext& compute)
                   "-DGROUP_SIZE=" + std::to_string(group_size_)) {}
 
 IcpSystem IcpTracker::Kernels::accumulateSystem(const DepthLevel& level, const ModelView& view, const Pose& T_M_D,
-                                                float max_distance_m, float min_normal_cosine,
+                                                const MatchGates& gates,
                                                 DeviceBuffer& partial_sums) {
-  const MatchingArgs args{max_distance_m, min_normal_cosine, static_cast<int>(planeElements(level.camera)),
+  const MatchingArgs args{gates.max_distance_m, gates.min_normal_cosine, gates.huber_sigmas,
+                          static_cast<int>(planeElements(level.camera)),
                           static_cast<int>(planeElements(view.camera))};
   const size_t rows = level.camera.height;
   accumulate_.runGroups(rows, group_size_, level.depth, level.normals, view.depth, view.normals, partial_sums,

@@ -8,13 +8,20 @@
 
 namespace depth_fusion {
 
+// Which matches count, and how much.
+struct MatchGates {
+  float max_distance_m;
+  float min_normal_cosine;
+  float huber_sigmas;
+};
+
 class IcpTracker::Kernels {
  public:
   explicit Kernels(ComputeContext& compute);
 
   // The system of matching `level` at T_M_D against the view, M being the view's camera frame.
-  IcpSystem accumulateSystem(const DepthLevel& level, const ModelView& view, const Pose& T_M_D, float max_distance_m,
-                             float min_normal_cosine, DeviceBuffer& partial_sums);
+  IcpSystem accumulateSystem(const DepthLevel& level, const ModelView& view, const Pose& T_M_D, const MatchGates& gates,
+                             DeviceBuffer& partial_sums);
 
  private:
   size_t group_size_;

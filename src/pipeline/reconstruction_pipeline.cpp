@@ -66,7 +66,7 @@ const DepthFrame& ReconstructionPipeline::preprocess(const RgbdFrame& frame) {
 }
 
 TrackingResult ReconstructionPipeline::track(const DepthFrame& depth) {
-  if (view_ != nullptr) return tracker_.track(depth, *view_, view_->T_W_D, timers_);
+  if (view_ != nullptr) return tracker_.track(depth, *view_, {view_->T_W_D, std::nullopt}, timers_);
   TrackingResult first;
   first.status = TrackingStatus::kTracking;
   return first;

@@ -35,6 +35,25 @@ inline Pose orthonormalized(const Pose& pose) {
   return result;
 }
 
+// The twist that poseFromTwist makes this motion of.
+inline Vector6d twistFromPose(const Pose& motion) {
+  const Eigen::AngleAxisd rotation(motion.linear());
+  Vector6d twist;
+  twist << rotation.angle() * rotation.axis(), motion.translation();
+  return twist;
+}
+
+// Small twists in frame B, as seen from A: exp(adjoint(T_A_B) x) T_A_B = T_A_B exp(x), to first order.
+inline Matrix6d adjoint(const Pose& T_A_B) {
+  const Eigen::Vector3d t = T_A_B.translation();
+  Eigen::Matrix3d cross;
+  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
+  Matrix6d result = Matrix6d::Zero();
+  result.topLeftCorner<3, 3>() = result.bottomRightCorner<3, 3>() = T_A_B.linear();
+  result.bottomLeftCorner<3, 3>() = cross * T_A_B.linear();
+  return result;
+}
+
 inline double rotationAngle(const Pose& motion) { return Eigen::AngleAxisd(motion.linear()).angle(); }
 
 // The pose at stamp_s on the straight (slerp) way between two poses; extrapolates outside of them.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "depth_fusion/common/parameters.h"
@@ -18,8 +19,11 @@ struct IcpTrackingParameters {
   float coarse_distance_m = 0.1f;
   float fine_distance_m = 0.04f;
   float max_normal_angle_rad = 0.6f;
+  float huber_sigmas = 2.0f;
   float convergence_rad = 5e-5f;
   float convergence_m = 5e-5f;
+  float degeneracy_threshold = 0.005f;
+  float correlated_points = 300.0f;
   float min_inlier_fraction = 0.25f;
   int min_inliers = 2000;
   float max_rmse_m = 0.02f;
@@ -29,29 +33,43 @@ struct IcpTrackingParameters {
   ParameterTable table();
 };
 
-enum class TrackingStatus { kTracking, kLost };
+enum class TrackingStatus {
+  kTracking,
+  kDegenerate,  // geometry leaves directions free; the pose has them from the prior
+  kLost
+};
+
+// What is known of the pose before ICP.
+struct MotionPrior {
+  Pose T_W_D = Pose::Identity();
+  // Of the twist (rotation, translation) applied to T_W_D on the left; none for a guess without a measurement.
+  std::optional<Matrix6d> covariance;
+};
 
 struct TrackingResult {
   TrackingStatus status = TrackingStatus::kLost;
-  std::string reason;             // why tracking is lost; empty otherwise
-  Pose T_W_D = Pose::Identity();  // valid unless lost
+  std::string reason;                         // why tracking is lost, or which directions are free; else empty
+  Pose T_W_D = Pose::Identity();              // valid unless lost
+  Matrix6d covariance = Matrix6d::Identity(); // of the twist applied to T_W_D on the left
   int inliers = 0;
-  double inlier_fraction = 0.0;   // of the frame's points with depth and normal
-  double rmse_m = 0.0;            // of the inliers' point-to-plane distances, weighted by the sensor's accuracy
+  double inlier_fraction = 0.0;  // of the frame's points with depth and normal
+  double rmse_m = 0.0;           // of the inliers' point-to-plane distances, weighted by the sensor's accuracy
+  double smallest_eigenvalue = 0.0;  // of the system in the unit cube, divided by the matches' weights
   int iterations = 0;
 };
 
 class IcpTracker {
  public:
+  class Kernels;  // typed launches, private to the library and its tests
+
   IcpTracker(ComputeContext& compute, const IcpTrackingParameters& parameters, const CameraIntrinsics& camera);
   ~IcpTracker();
 
-  // Aligns the frame to the view, coarse to fine, starting from T_W_D_prior.
-  TrackingResult track(const DepthFrame& frame, const ModelView& view, const Pose& T_W_D_prior, StageTimers& timers);
+  // Aligns the frame to the view, coarse to fine, starting from the prior. A prior with a covariance takes part in the
+  // solution and fills the directions that geometry leaves free; without one, those stay as the prior guesses.
+  TrackingResult track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior, StageTimers& timers);
 
  private:
-  class Kernels;
-
   IcpTrackingParameters parameters_;
   DeviceBuffer partial_sums_;
   std::unique_ptr<Kernels> kernels_;
