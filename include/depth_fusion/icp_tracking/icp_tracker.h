@@ -43,6 +43,8 @@ struct TrackingResult {
 
 class IcpTracker {
  public:
+  class Kernels;  // typed launches, private to the library and its tests
+
   IcpTracker(ComputeContext& compute, const IcpTrackingParameters& parameters, const CameraIntrinsics& camera);
   ~IcpTracker();
 
@@ -50,8 +52,6 @@ class IcpTracker {
   TrackingResult track(const DepthFrame& frame, const ModelView& view, const Pose& T_W_D_prior, StageTimers& timers);
 
  private:
-  class Kernels;
-
   IcpTrackingParameters parameters_;
   DeviceBuffer partial_sums_;
   std::unique_ptr<Kernels> kernels_;
