@@ -85,7 +85,8 @@ inline cv::Mat halveDepth(const cv::Mat& depth, double cutoff_sigmas) {
 
 // The plane z = a + b du + c dv fitted to the 3x3 pixels two apart; as a surface, its normal is
 // (fx b, fy c, -(z + u b + v c)) with (u, v) from the principal point.
-inline cv::Mat computeNormals(const cv::Mat& depth, const CameraIntrinsics& camera, double max_relative_step) {
+inline cv::Mat computeNormals(const cv::Mat& depth, const CameraIntrinsics& camera,
+                              double max_relative_step) {
   cv::Mat normals = cv::Mat::zeros(depth.size(), CV_32FC3);
   forEachPixel<cv::Vec3f>(normals, [&](int x, int y, cv::Vec3f& pixel) {
     const double z = depth.at<float>(y, x);

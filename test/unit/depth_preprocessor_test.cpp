@@ -70,9 +70,8 @@ TEST(DepthPreprocessor, NoDepthWhereThereIsNoneOrOutOfRange) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
   const std::vector<std::pair<float, float>> cases = {
-      {0.0f, 0.0f}, {nan, 0.0f},      {infinity, 0.0f}, {-infinity, 0.0f}, {-1.0f, 0.0f},
-      {0.4f, 0.0f}, {1000.0f, 0.0f},  {0.5f, 0.5f},     {4.0f, 4.0f},      {4.0001f, 0.0f},
-      {2.0f, 2.0f}, {0.49999f, 0.0f}};
+      {0.0f, 0.0f},    {nan, 0.0f},  {infinity, 0.0f}, {-infinity, 0.0f}, {-1.0f, 0.0f}, {0.4f, 0.0f},
+      {1000.0f, 0.0f}, {0.5f, 0.5f}, {4.0f, 4.0f},     {4.0001f, 0.0f},   {2.0f, 2.0f},  {0.49999f, 0.0f}};
   cv::Mat input = cv::Mat::zeros(30, 40, CV_32FC1);
   for (size_t i = 0; i < cases.size(); ++i) input.at<float>(7, 25 + static_cast<int>(i)) = cases[i].first;
   PreprocessingParameters parameters;
