@@ -27,6 +27,13 @@ std::string lostReason(const TrackingResult& result, const IcpSystem& system, co
   return reason.str();
 }
 
+// Why the system has no solution.
+std::string undeterminedReason(const IcpSystem& system) {
+  if (system.source_points == 0.0) return "no points with depth and normal";
+  if (system.inliers == 0.0) return "no point matches the view";
+  return "the geometry seen does not determine the motion";
+}
+
 }  // namespace
 
 ParameterTable IcpTrackingParameters::table() {
@@ -76,7 +83,7 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
       ++result.iterations;
       const std::optional<Vector6d> twist = solve(system);
       if (!twist) {
-        result.reason = "the geometry seen does not determine the motion";
+        result.reason = undeterminedReason(system);
         return result;
       }
       T_M_D = poseFromTwist(*twist) * T_M_D;

@@ -16,7 +16,7 @@ class RayCaster {
   // Depth of the first place where the ray (z = 1) goes from free space through the surface; 0 = none.
   double cast(const Pose& T_W_D, const Eigen::Vector3d& ray_D, double min_range_m, double max_range_m) const {
     const double step_m = 0.1 * map_.voxel_size_m / ray_D.norm();
-    double previous = -1.0;
+    double previous = std::nan("");
     for (double t = min_range_m; t < max_range_m; t += step_m) {
       const double distance = interpolated(T_W_D * Eigen::Vector3d(t * ray_D));
       if (distance <= 0.0 && previous > 0.0) return t - step_m * distance / (distance - previous);
@@ -26,7 +26,7 @@ class RayCaster {
   }
 
  private:
-  // Trilinear, in steps of the distance byte; -1 where a voxel is not known.
+  // Trilinear, in steps of the distance byte; NaN where a voxel is not known.
   double interpolated(const Eigen::Vector3d& p_W) const {
     const Eigen::Vector3d p = p_W / map_.voxel_size_m;
     const Eigen::Vector3i low = p.array().floor().cast<int>();
@@ -34,7 +34,7 @@ class RayCaster {
     double sum = 0.0;
     for (int i = 0; i < 8; ++i) {
       const int distance = voxel(low + Eigen::Vector3i(i & 1, i >> 1 & 1, i >> 2));
-      if (distance == TSDF_CHI) return -1.0;
+      if (distance == TSDF_CHI) return std::nan("");
       sum += distance * (i & 1 ? f.x() : 1.0 - f.x()) * (i & 2 ? f.y() : 1.0 - f.y()) *
              (i & 4 ? f.z() : 1.0 - f.z());
     }

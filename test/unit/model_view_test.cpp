@@ -128,7 +128,7 @@ void expectSphere(const Images& view, const Pose& T_W_D, double voxel_size_m) {
   EXPECT_EQ(errors.false_hits, 0u);
   EXPECT_LT(errors.mean_vox, 0.03);
   EXPECT_LT(errors.largest_vox, 0.2);
-  EXPECT_LT(errors.largest_angle_rad, 0.05);
+  EXPECT_LT(errors.largest_angle_rad, 0.08);  // from 8 bits
 }
 
 class ModelViewOfBlockSize : public testing::TestWithParam<int> {};
@@ -159,7 +159,7 @@ TEST_P(ModelViewOfBlockSize, ShowsATiltedPlane) {
       const double truth_m = (offset_m - normal.dot(T_W_D.translation())) / normal.dot(ray);
       ASSERT_NEAR(view.depth.at<float>(y, x), truth_m, 0.0005) << x << " " << y;
       const cv::Vec3f n = view.normals.at<cv::Vec3f>(y, x);
-      ASSERT_NEAR((Eigen::Vector3d(n[0], n[1], n[2]) - normal).norm(), 0.0, 0.03) << x << " " << y;
+      ASSERT_NEAR((Eigen::Vector3d(n[0], n[1], n[2]) - normal).norm(), 0.0, 0.06) << x << " " << y;
     }
   }
 }
