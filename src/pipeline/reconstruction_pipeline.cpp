@@ -42,7 +42,8 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
   const DepthFrame& depth = preprocess(frame);
   result.tracking = track(depth);
   if (result.tracking.status == TrackingStatus::kLost) return result;
-  result.fusion = fuse(depth, result.tracking.T_W_D);
+  fuse(depth, result);
+  if (result.tracking.status == TrackingStatus::kLost) return result;
   view_ = &renderer_.render(result.tracking.T_W_D, parameters_.preprocessing.min_range_m,
                             parameters_.preprocessing.max_range_m, timers_);
   return result;
@@ -54,7 +55,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   const DepthFrame& depth = preprocess(frame);
   result.tracking.status = TrackingStatus::kTracking;
   result.tracking.T_W_D = T_W_D;
-  result.fusion = fuse(depth, T_W_D);
+  fuse(depth, result);
   return result;
 }
 
@@ -72,9 +73,13 @@ TrackingResult ReconstructionPipeline::track(const DepthFrame& depth) {
   return first;
 }
 
-FusionResult ReconstructionPipeline::fuse(const DepthFrame& depth, const Pose& T_W_D) {
-  if (map_.usage().blocks == 0) map_.reset(windowCentre(parameters_.map, T_W_D));
-  return fusion_.integrate(depth, T_W_D, timers_);
+void ReconstructionPipeline::fuse(const DepthFrame& depth, FrameResult& result) {
+  TrackingResult& tracking = result.tracking;
+  if (map_.usage().blocks == 0) map_.reset(windowCentre(parameters_.map, tracking.T_W_D));
+  result.fusion = fusion_.integrate(depth, tracking.T_W_D, timers_);
+  if (result.fusion.blocks_updated > 0) return;
+  tracking.status = TrackingStatus::kLost;
+  tracking.reason = "no depth in range";
 }
 
 }  // namespace depth_fusion
