@@ -93,12 +93,10 @@ TEST(IcpSystem, EqualsTheReferenceWithNumericalJacobian) {
     const Sight model(camera, frameOfRoom(camera, T_W_M));
     const Sight source(camera, frameOfRoom(camera, T_W_D));
     const reference::OrientedDepth model_images = model.read(0);
+    const Pose start = interpolate({0.0, T_W_M.inverse() * T_W_D}, {1.0, Pose::Identity()}, 0.3);
     IcpTracker::Kernels kernels(compute());
     DeviceBuffer sums(compute(), camera.height * ICP_SUMS * sizeof(float), "sums");
     for (int level = 0; level < DepthPreprocessor::kLevels; ++level) {
-      const Pose T_M_D =
-          T_W_M.inverse();  // wrong by W's pose in D, so that some points match and some do not
-      const Pose start = interpolate({0.0, T_M_D * T_W_D}, {1.0, Pose::Identity()}, 0.3);
       const IcpSystem system = kernels.accumulateSystem(source.depth().levels[level], model.asView(T_W_M),
                                                         start, 0.05f, 0.9f, sums);
       const IcpSystem expected =
@@ -195,27 +193,16 @@ TEST(IcpTracker, LostBeforeAWall) {
   for (const double tilt_rad : {0.0, 0.4}) {
     T_W_D.linear() = Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d(0.6, 0.8, 0.0)).toRotationMatrix();
     const Scene wall({plane(Eigen::Vector3d(0, 0, 1.5), -Eigen::Vector3d::UnitZ(), Material())});
-    RgbdFrame frame = frameOfScene(wall, camera, T_W_D);
+    const RgbdFrame frame = frameOfScene(wall, camera, T_W_D);
     const ModelView view = Sight(camera, frame).asView(T_W_D);
-    for (const double sigma_m : {0.0, 0.002}) {
-      RgbdFrame noisy;
-      noisy.depth = frame.depth.clone();
-      cv::RNG random(3);
-      reference::forEachPixel<float>(noisy.depth, [&](int, int, float& z) { z += random.gaussian(sigma_m); });
-      const ModelView noisy_view = Sight(camera, noisy).asView(T_W_D);
-      const TrackingResult result = track(Sight(camera, frame), noisy_view, T_W_D);
-      printf("tilt %g sigma %g: %d '%s' drift %g m\n", tilt_rad, sigma_m, (int)result.status,
-             result.reason.c_str(), (T_W_D.inverse() * result.T_W_D).translation().norm());
-    }
+    expectLost(track(Sight(camera, frame), view, T_W_D), "the geometry seen does not determine the motion");
   }
 }
 
 // The rotation's rounding error tripled with each frame once: after 35 frames, no pose was left.
 TEST(IcpTracker, PosesStayOrthonormalOverManyFrames) {
-  const CameraIntrinsics camera = cameraOfWidth(80);
-  IcpTrackingParameters parameters;
-  parameters.min_inliers = 500;
-  IcpTracker tracker(compute(), parameters, camera);
+  const CameraIntrinsics camera = cameraOfWidth(160);
+  IcpTracker tracker(compute(), {}, camera);
   StageTimers timers;
   const Pose start = roomRecording().poseOf(0).T_W_D;
   const Sight sight(camera, frameOfRoom(camera, start));
