@@ -193,20 +193,14 @@ __kernel void raycast_fine(__global const int *offsets, __global const char *vox
   const int index = pixel_index(x, y, camera);
   const Rays rays = make_rays(x + LANE_INDICES, y, camera, T_W_D, grid);
   vfloat t = VLOAD(coarse + index);
-  vint known = t > 0.0f;
-  vfloat gx = 0.0f, gy = 0.0f, gz = 0.0f;
-  for (int iteration = 0; iteration < 2 && ANY(known); ++iteration) {
-    const Sample sample =
-        interpolate(rays.origin_x + t * rays.direction_x, rays.origin_y + t * rays.direction_y,
-                    rays.origin_z + t * rays.direction_z, known, offsets, voxels, grid);
-    gx = sample.gradient_x;
-    gy = sample.gradient_y;
-    gz = sample.gradient_z;
-    const vfloat slope = gx * rays.direction_x + gy * rays.direction_y + gz * rays.direction_z;
-    known = sample.known & (slope < 0.0f);
-    const vfloat limit = 1.5f * rays.t_per_voxel;
-    t -= select((vfloat)(0.0f), clamp(sample.value / slope, -limit, limit), known);
-  }
+  const Sample sample = interpolate(rays.origin_x + t * rays.direction_x, rays.origin_y + t * rays.direction_y,
+                                    rays.origin_z + t * rays.direction_z, t > 0.0f, offsets, voxels, grid);
+  const vfloat gx = sample.gradient_x, gy = sample.gradient_y, gz = sample.gradient_z;
+  const vfloat slope = gx * rays.direction_x + gy * rays.direction_y + gz * rays.direction_z;
+  const vint known = sample.known & (slope < 0.0f);
+  // one Newton step; the coarse hit is less than a voxel away
+  const vfloat limit = 1.5f * rays.t_per_voxel;
+  t -= clamp(sample.value / slope, -limit, limit);
   const vfloat scale = rsqrt(gx * gx + gy * gy + gz * gz);
   // frame D: the rotation's transpose
   const vfloat nx = T_W_D.rotation[0] * gx + T_W_D.rotation[3] * gy + T_W_D.rotation[6] * gz;
