@@ -186,6 +186,21 @@ TEST(IcpTracker, LostAfterAJump) {
   expectLost(track(Sight(camera, frameOfRoom(camera, T_W_D)), view, T_W_M, parameters), "jump of");
 }
 
+TEST(IcpTracker, LostBeyondItsLimits) {
+  const CameraIntrinsics camera = cameraOfWidth(160);
+  const Pose T_W_M = roomRecording().poseOf(0).T_W_D;
+  const ModelView view = Sight(camera, frameOfRoom(camera, T_W_M)).asView(T_W_M);
+  const Sight sight(camera, frameOfRoom(camera, roomRecording().poseOf(3).T_W_D));
+  ASSERT_EQ(track(sight, view, T_W_M).status, TrackingStatus::kTracking);
+  IcpTrackingParameters many, nearly_all, exact;
+  many.min_inliers = 160 * 120;
+  expectLost(track(sight, view, T_W_M, many), "points with depth and normal");
+  nearly_all.min_inlier_fraction = 1.0f;
+  expectLost(track(sight, view, T_W_M, nearly_all), "inliers");
+  exact.max_rmse_m = 1e-5f;
+  expectLost(track(sight, view, T_W_M, exact), "rmse");
+}
+
 // A wall alone leaves three motions free.
 TEST(IcpTracker, LostBeforeAWall) {
   const CameraIntrinsics camera = cameraOfWidth(160);

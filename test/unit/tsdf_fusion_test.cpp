@@ -453,6 +453,21 @@ TEST(TsdfFusion, FullPoolFusesWhatFitsAndAsksAgain) {
   expectDataInEveryBlock(map);
 }
 
+// More blocks than one list of requests holds.
+TEST(TsdfFusion, AllocatesAllTheBlocksOfAFineMap) {
+  const CameraIntrinsics camera{320, 240, 262.5, 262.5, 159.5, 119.5};
+  MapParameters parameters = mapParameters(4, 220, 0.005f);
+  parameters.truncation_m = 0.06f;
+  BlockSparseMap map(compute(), parameters);
+  map.reset(Eigen::Vector3d(0.0, 0.0, 3.0));
+  TsdfFusion fusion(compute(), map, {});
+  const View wall{camera, Pose::Identity(), cv::Mat(camera.height, camera.width, CV_32FC1, cv::Scalar(3.0))};
+  const FusionResult first = integrate(fusion, wall);
+  EXPECT_GT(first.blocks_requested, 100000u);
+  EXPECT_EQ(first.blocks_allocated, first.blocks_requested);
+  EXPECT_EQ(integrate(fusion, wall).blocks_requested, first.blocks_released);
+}
+
 TEST(TsdfFusion, WindowMayStandAnywhere) {
   MapContent expected;
   for (const Eigen::Vector3d& centre :
