@@ -28,15 +28,10 @@ fail() {
 }
 
 as_root() {
-  if [[ $(id -u) -eq 0 ]]; then
-    "$@"
-  elif command -v sudo >/dev/null; then
-    sudo "$@"
-  else
-    say "this user is not root and there is no sudo"
-    return 1
-  fi
+  if [[ $(id -u) -eq 0 ]]; then "$@"; else sudo "$@"; fi
 }
+
+may_be_root() { [[ $(id -u) -eq 0 ]] || command -v sudo >/dev/null; }
 
 # The given packages that are not installed, one a line.
 missing_packages() {
@@ -50,11 +45,16 @@ install_packages() {
   local missing
   mapfile -t missing < <(missing_packages "$@")
   [[ ${#missing[@]} -gt 0 ]] || return 0
+  local by_hand="if the build fails, let root run: apt-get install ${missing[*]}"
+  if ! may_be_root; then
+    say "missing packages, and neither root nor sudo to install them; $by_hand"
+    return 0
+  fi
   say "installing with apt-get (this may take minutes): ${missing[*]}"
   as_root apt-get update -qq || say "apt-get update failed; going on with the package lists as they are"
   as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
-    say "could not install all of them; if the build fails, run as root: apt-get install ${missing[*]}"
+    say "could not install all of them; $by_hand"
 }
 
 install_ros_dependencies() {

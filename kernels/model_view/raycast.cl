@@ -1,7 +1,8 @@
 // Ray casting of the block-sparse map in two stages, as the paper has it: raycast_coarse finds the voxel where a ray
 // first goes from positive to negative distance, raycast_fine the surface in it by trilinear interpolation, and its
-// normal. Rays are parametrised by depth t (z in frame D): p(t) = origin + t * direction, in voxels.
-// A work-item casts SIMD_WIDTH rays of a row.
+// normal. Rays are parametrised by depth t (z in frame D): p(t) = origin + t * direction, in voxels from the first voxel
+// of the window, so that the conversion to integers, which truncates, rounds down. A work-item casts SIMD_WIDTH rays of
+// a row.
 #include "shared/block_map.h"
 #include "shared/image.h"
 #define RANGE_TILE 8
@@ -10,30 +11,44 @@
 typedef struct {
   float origin_x, origin_y, origin_z;
   vfloat direction_x, direction_y, direction_z;
+  vfloat t_per_voxel;  // depth travelled in a voxel's length of the ray
 } Rays;
 
 inline Rays make_rays(vint u, int v, const CameraArgs camera, const TransformArgs T_W_D, const GridArgs grid) {
   const float per_voxel = 1.0f / grid.voxel_size_m;
   const vfloat x = (TO_VFLOAT(u) - camera.cx) * (per_voxel / camera.fx);
-  const vfloat y = ((float)v - camera.cy) * (per_voxel / camera.fy);
-  const vfloat z = per_voxel;
+  const float y = (v - camera.cy) * (per_voxel / camera.fy);
+  const float z = per_voxel;
   Rays rays;
-  rays.origin_x = T_W_D.translation[0] * per_voxel;
-  rays.origin_y = T_W_D.translation[1] * per_voxel;
-  rays.origin_z = T_W_D.translation[2] * per_voxel;
-  rays.direction_x = rotated(T_W_D, 0, x, y, z);
-  rays.direction_y = rotated(T_W_D, 1, x, y, z);
-  rays.direction_z = rotated(T_W_D, 2, x, y, z);
+  rays.origin_x = T_W_D.translation[0] * per_voxel - grid.origin[0] * BLOCK_SIZE;
+  rays.origin_y = T_W_D.translation[1] * per_voxel - grid.origin[1] * BLOCK_SIZE;
+  rays.origin_z = T_W_D.translation[2] * per_voxel - grid.origin[2] * BLOCK_SIZE;
+  rays.direction_x = T_W_D.rotation[0] * x + (T_W_D.rotation[1] * y + T_W_D.rotation[2] * z);
+  rays.direction_y = T_W_D.rotation[3] * x + (T_W_D.rotation[4] * y + T_W_D.rotation[5] * z);
+  rays.direction_z = T_W_D.rotation[6] * x + (T_W_D.rotation[7] * y + T_W_D.rotation[8] * z);
+  rays.t_per_voxel = rsqrt(rays.direction_x * rays.direction_x + rays.direction_y * rays.direction_y +
+                           rays.direction_z * rays.direction_z);
   return rays;
 }
 
-// Depth t at which a ray leaves the block along one axis; blocks hold the points that round to their voxels.
-inline vfloat exit_depth(vint block, float origin, vfloat direction) {
-  const vint next = select(block, block + 1, direction > 0.0f);
-  const vfloat boundary = TO_VFLOAT(next * BLOCK_SIZE) - 0.5f;
-  const vfloat safe = select(direction, (vfloat)(1e-6f), fabs(direction) < 1e-6f);
-  return select((boundary - origin) / safe, (vfloat)(MAXFLOAT), fabs(direction) < 1e-6f);
+// 1 / direction, large but finite for a ray across the axis.
+inline vfloat inverse_direction(vfloat direction) {
+  return 1.0f / select(direction, (vfloat)(1e-9f), fabs(direction) < 1e-9f);
 }
+
+// Depth t at which a ray leaves a block along one axis.
+inline vfloat exit_depth(vint block, float origin, vfloat inverse) {
+  const vint boundary = select(block, block + 1, inverse > 0.0f) << BLOCK_SIZE_LOG2;
+  return (TO_VFLOAT(boundary) - origin) * inverse;
+}
+
+// Wraps block coordinates of the window, already in it, to the coordinates of its offsets.
+inline vint wrap(vint block, int wrapped_origin, int blocks_per_axis) {
+  const vint wrapped = block + wrapped_origin;
+  return select(wrapped, wrapped - blocks_per_axis, wrapped >= blocks_per_axis);
+}
+
+inline vint in_window(vint block, int blocks_per_axis) { return AS_VUINT(block) < (uint)blocks_per_axis; }
 
 // coarse: depth of the hit in metres a pixel, 0 = none
 __kernel void raycast_coarse(__global const int *offsets, __global const char *voxels, __global const float *nearest,
@@ -44,28 +59,35 @@ __kernel void raycast_coarse(__global const int *offsets, __global const char *v
   if (x >= camera.width) return;
   const vint u = x + LANE_INDICES;
   const Rays rays = make_rays(u, y, camera, T_W_D, grid);
+  // blocks hold the points that round to their voxels
+  const float origin_x = rays.origin_x + 0.5f, origin_y = rays.origin_y + 0.5f, origin_z = rays.origin_z + 0.5f;
+  const vfloat inverse_x = inverse_direction(rays.direction_x);
+  const vfloat inverse_y = inverse_direction(rays.direction_y);
+  const vfloat inverse_z = inverse_direction(rays.direction_z);
+  const int n = grid.blocks_per_axis;
   const int tile_row = y / RANGE_TILE * ((camera.width + RANGE_TILE - 1) / RANGE_TILE);
   const vint tile = tile_row + min(u, (vint)(camera.width - 1)) / RANGE_TILE;
   const vfloat end = GATHER(vfloat, farthest, tile);
   vfloat t = GATHER(vfloat, nearest, tile);
-  const vfloat t_per_voxel = rsqrt(rays.direction_x * rays.direction_x + rays.direction_y * rays.direction_y +
-                                   rays.direction_z * rays.direction_z);
-  const float voxels_per_step = grid.truncation_m / (grid.voxel_size_m * TSDF_MAX);
-  const float chi_step_voxels = fmax(1.0f, 0.5f * grid.truncation_m / grid.voxel_size_m);
+  const float truncation_voxels = grid.truncation_m / grid.voxel_size_m;
+  const vfloat t_per_step = rays.t_per_voxel * (truncation_voxels / TSDF_MAX);
+  const vfloat chi_step_t = rays.t_per_voxel * fmax(1.0f, 0.75f * truncation_voxels);
 
   vfloat hit_t = 0.0f;
   vfloat previous_t = t;
   vint previous = TSDF_CHI;
   vint active = (t < end) & (u < camera.width);
   for (int i = 0; i < MAX_STEPS && ANY(active); ++i) {
-    const vint vx = TO_VINT(floor(rays.origin_x + t * rays.direction_x + 0.5f));
-    const vint vy = TO_VINT(floor(rays.origin_y + t * rays.direction_y + 0.5f));
-    const vint vz = TO_VINT(floor(rays.origin_z + t * rays.direction_z + 0.5f));
+    const vint vx = TO_VINT(origin_x + t * rays.direction_x);
+    const vint vy = TO_VINT(origin_y + t * rays.direction_y);
+    const vint vz = TO_VINT(origin_z + t * rays.direction_z);
     const vint bx = vx >> BLOCK_SIZE_LOG2;
     const vint by = vy >> BLOCK_SIZE_LOG2;
     const vint bz = vz >> BLOCK_SIZE_LOG2;
-    const vint address = select((vint)(-1), block_addresses(bx, by, bz, grid), active);
-    const vint slot = select((vint)(-1), GATHER(vint, offsets, max(address, (vint)(0))), address >= 0);
+    const vint inside = active & in_window(bx, n) & in_window(by, n) & in_window(bz, n);
+    const vint address = wrap(bx, grid.wrapped_origin[0], n) +
+                         n * (wrap(by, grid.wrapped_origin[1], n) + n * wrap(bz, grid.wrapped_origin[2], n));
+    const vint slot = select((vint)(-1), GATHER(vint, offsets, select((vint)(0), address, inside)), inside);
     const vint allocated = slot >= 0;
     const vint in_block = (vx & (BLOCK_SIZE - 1)) + ((vy & (BLOCK_SIZE - 1)) << BLOCK_SIZE_LOG2) +
                           ((vz & (BLOCK_SIZE - 1)) << (2 * BLOCK_SIZE_LOG2));
@@ -73,22 +95,26 @@ __kernel void raycast_coarse(__global const int *offsets, __global const char *v
     const vint distance = select((vint)(TSDF_CHI), TO_VINT(GATHER(vchar, voxels, voxel)), allocated);
     const vint known = distance != TSDF_CHI;
 
-    const vint crossed = active & known & (distance <= 0) & (previous > 0);
+    // A step from an unknown voxel may end a little behind the surface: then the distance leads back. Farther behind,
+    // the ray came from the surface's back.
+    const vint behind = active & known & (distance <= 0);
+    const vint crossed = behind & (previous > 0);
+    const vint overshot = behind & (previous == TSDF_CHI) & (distance > -TSDF_MAX / 2);
     const vfloat fraction = TO_VFLOAT(previous) / TO_VFLOAT(max(previous - distance, (vint)(1)));
+    const vfloat steps = TO_VFLOAT(distance);
     hit_t = select(hit_t, previous_t + (t - previous_t) * fraction, crossed);
-    active = active & NOT(crossed);
+    hit_t = select(hit_t, t + steps * t_per_step, overshot);
+    active = active & NOT(crossed | overshot);
 
-    const vfloat near_step = max(0.8f * voxels_per_step * fabs(TO_VFLOAT(distance)), (vfloat)(1.0f));
-    const vfloat step = select((vfloat)(chi_step_voxels), near_step, known) * t_per_voxel;
-    vfloat next_t = t + step;
-    if (ANY(active & NOT(allocated))) {
-      const vfloat exit = min(exit_depth(bx, rays.origin_x, rays.direction_x),
-                              min(exit_depth(by, rays.origin_y, rays.direction_y),
-                                  exit_depth(bz, rays.origin_z, rays.direction_z)));
-      next_t = select(max(exit, t) + 0.05f * t_per_voxel, next_t, allocated);
-    }
     previous_t = t;
     previous = distance;
+    const vfloat near_step_t = max(0.8f * fabs(steps) * t_per_step, rays.t_per_voxel);
+    vfloat next_t = t + select(chi_step_t, near_step_t, known);
+    if (ANY(active & NOT(allocated))) {
+      const vfloat exit = min(exit_depth(bx, origin_x, inverse_x),
+                              min(exit_depth(by, origin_y, inverse_y), exit_depth(bz, origin_z, inverse_z)));
+      next_t = select(max(exit, t) + 0.05f * rays.t_per_voxel, next_t, allocated);
+    }
     t = next_t;
     active = active & (t < end);
   }
@@ -105,10 +131,9 @@ inline AxisNeighbours axis_neighbours(vint voxel, int axis, const GridArgs grid)
   AxisNeighbours result;
   for (int i = 0; i < 2; ++i) {
     const vint v = voxel + i;
-    const vint in_window = (v >> BLOCK_SIZE_LOG2) - grid.origin[axis];
-    const vint wrapped = in_window + grid.wrapped_origin[axis];
-    result.inside[i] = (in_window >= 0) & (in_window < grid.blocks_per_axis);
-    result.block[i] = select(wrapped, wrapped - grid.blocks_per_axis, wrapped >= grid.blocks_per_axis);
+    const vint block = v >> BLOCK_SIZE_LOG2;
+    result.inside[i] = in_window(block, grid.blocks_per_axis);
+    result.block[i] = wrap(block, grid.wrapped_origin[axis], grid.blocks_per_axis);
     result.in_block[i] = v & (BLOCK_SIZE - 1);
   }
   return result;
@@ -123,10 +148,10 @@ typedef struct {
 
 inline Sample interpolate(vfloat px, vfloat py, vfloat pz, vint active, __global const int *offsets,
                           __global const char *voxels, const GridArgs grid) {
-  const vfloat floor_x = floor(px), floor_y = floor(py), floor_z = floor(pz);
-  const AxisNeighbours nx = axis_neighbours(TO_VINT(floor_x), 0, grid);
-  const AxisNeighbours ny = axis_neighbours(TO_VINT(floor_y), 1, grid);
-  const AxisNeighbours nz = axis_neighbours(TO_VINT(floor_z), 2, grid);
+  const vint vx = TO_VINT(px), vy = TO_VINT(py), vz = TO_VINT(pz);
+  const AxisNeighbours nx = axis_neighbours(vx, 0, grid);
+  const AxisNeighbours ny = axis_neighbours(vy, 1, grid);
+  const AxisNeighbours nz = axis_neighbours(vz, 2, grid);
   const int n = grid.blocks_per_axis;
   Sample sample;
   sample.known = active;
@@ -144,7 +169,7 @@ inline Sample interpolate(vfloat px, vfloat py, vfloat pz, vint active, __global
     sample.known = inside & allocated & (distance != TSDF_CHI);
     corner[i] = TO_VFLOAT(distance);
   }
-  const vfloat x = px - floor_x, y = py - floor_y, z = pz - floor_z;
+  const vfloat x = px - TO_VFLOAT(vx), y = py - TO_VFLOAT(vy), z = pz - TO_VFLOAT(vz);
   const vfloat x00 = corner[1] - corner[0], x10 = corner[3] - corner[2];
   const vfloat x01 = corner[5] - corner[4], x11 = corner[7] - corner[6];
   const vfloat v00 = corner[0] + x * x00, v10 = corner[2] + x * x10;
@@ -167,23 +192,15 @@ __kernel void raycast_fine(__global const int *offsets, __global const char *vox
   if (x >= camera.width) return;
   const int index = pixel_index(x, y, camera);
   const Rays rays = make_rays(x + LANE_INDICES, y, camera, T_W_D, grid);
-  const vfloat t_per_voxel = rsqrt(rays.direction_x * rays.direction_x + rays.direction_y * rays.direction_y +
-                                   rays.direction_z * rays.direction_z);
   vfloat t = VLOAD(coarse + index);
-  vint known = t > 0.0f;
-  vfloat gx = 0.0f, gy = 0.0f, gz = 0.0f;
-  for (int iteration = 0; iteration < 2 && ANY(known); ++iteration) {
-    const Sample sample =
-        interpolate(rays.origin_x + t * rays.direction_x, rays.origin_y + t * rays.direction_y,
-                    rays.origin_z + t * rays.direction_z, known, offsets, voxels, grid);
-    gx = sample.gradient_x;
-    gy = sample.gradient_y;
-    gz = sample.gradient_z;
-    const vfloat slope = gx * rays.direction_x + gy * rays.direction_y + gz * rays.direction_z;
-    known = sample.known & (slope < 0.0f);
-    const vfloat limit = 1.5f * t_per_voxel;
-    t -= select((vfloat)(0.0f), clamp(sample.value / slope, -limit, limit), known);
-  }
+  const Sample sample = interpolate(rays.origin_x + t * rays.direction_x, rays.origin_y + t * rays.direction_y,
+                                    rays.origin_z + t * rays.direction_z, t > 0.0f, offsets, voxels, grid);
+  const vfloat gx = sample.gradient_x, gy = sample.gradient_y, gz = sample.gradient_z;
+  const vfloat slope = gx * rays.direction_x + gy * rays.direction_y + gz * rays.direction_z;
+  const vint known = sample.known & (slope < 0.0f);
+  // one Newton step; the coarse hit is less than a voxel away
+  const vfloat limit = 1.5f * rays.t_per_voxel;
+  t -= clamp(sample.value / slope, -limit, limit);
   const vfloat scale = rsqrt(gx * gx + gy * gy + gz * gz);
   // frame D: the rotation's transpose
   const vfloat nx = T_W_D.rotation[0] * gx + T_W_D.rotation[3] * gy + T_W_D.rotation[6] * gz;

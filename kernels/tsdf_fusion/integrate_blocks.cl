@@ -13,14 +13,12 @@
 #endif
 #define ITEMS_PER_BLOCK (BLOCK_VOXELS / ITEM_VOXELS)
 
-// Uniform in [0, 1): a hash of the voxel, advanced by the golden ratio each frame, so that the rounding errors of one
-// voxel cancel over the frames faster than independent draws would.
-inline vfloat dither(vint voxel, int3 block, int frame) {
-  vuint h = AS_VUINT(voxel) + (uint)(block.x * 73856093 ^ block.y * 19349669 ^ block.z * 83492791);
-  h = (h ^ (h >> 15)) * 0x85ebca6bu;
-  h = (h ^ (h >> 13)) * 0xc2b2ae35u;
-  h = (h ^ (h >> 16)) + (uint)frame * 0x9e3779b9u;
-  return TO_VFLOAT(AS_VINT(h >> 8)) * (1.0f / 16777216.0f);
+// Phase of a voxel's dither: spread by a hash over the blocks, by the golden ratio along a block's voxels and over the
+// frames, so that the rounding errors of one voxel cancel over the frames faster than independent draws would.
+inline uint dither_phase(int voxel, int3 block, int frame) {
+  uint hash = (uint)(block.x * 73856093 ^ block.y * 19349669 ^ block.z * 83492791);
+  hash = (hash ^ (hash >> 15)) * 0x85ebca6bu;
+  return hash + (uint)(voxel + frame) * 0x9e3779b9u;
 }
 
 __kernel void integrate_blocks(__global char *voxels, __global const int *visible, int visible_count,
@@ -34,59 +32,65 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
   const int slot = visible[entry];
   const int3 block = block_indices[slot].xyz;
   const float size = grid.voxel_size_m;
-  const float3 origin_D = transform_point(T_D_W, convert_float3(block * BLOCK_SIZE) * size);
   __global char *distances = voxels + block_distances(slot);
   __global uchar *weights = (__global uchar *)voxels + block_weights(slot);
   const float steps_per_m = TSDF_MAX / grid.truncation_m;
-  const float near_surface = 1.7320508f * size * steps_per_m;
-  int state = 0;
+
+  // Offsets of a vector's voxels from its first; a vector is a row of a block, or several.
+  const vfloat lane_i = TO_VFLOAT(LANE_INDICES & (BLOCK_SIZE - 1)) * size;
+  const vfloat lane_j = TO_VFLOAT(LANE_INDICES >> BLOCK_SIZE_LOG2) * size;
+  const vfloat lane_x = T_D_W.rotation[0] * lane_i + T_D_W.rotation[1] * lane_j;
+  const vfloat lane_y = T_D_W.rotation[3] * lane_i + T_D_W.rotation[4] * lane_j;
+  const vfloat lane_z = T_D_W.rotation[6] * lane_i + T_D_W.rotation[7] * lane_j;
+  const vuint lane_phase = AS_VUINT(LANE_INDICES) * 0x9e3779b9u;
+
+  // Distances are measured along the rays, all through a block with the slope of the ray through its middle.
+  const float3 middle = transform_point(T_D_W, (convert_float3(block) + 0.5f) * (size * BLOCK_SIZE));
+  const float ray_steps_per_m = steps_per_m * length(middle) / fmax(middle.z, size);
+  vuchar smallest = 128;
 
   for (int voxel = first_voxel; voxel < first_voxel + ITEM_VOXELS; voxel += SIMD_WIDTH) {
-    const vint index = voxel + LANE_INDICES;
-    const vfloat i = TO_VFLOAT(index & (BLOCK_SIZE - 1)) * size;
-    const vfloat j = TO_VFLOAT((index >> BLOCK_SIZE_LOG2) & (BLOCK_SIZE - 1)) * size;
-    const vfloat k = TO_VFLOAT(index >> (2 * BLOCK_SIZE_LOG2)) * size;
-    const vfloat x = origin_D.x + rotated(T_D_W, 0, i, j, k);
-    const vfloat y = origin_D.y + rotated(T_D_W, 1, i, j, k);
-    const vfloat z = origin_D.z + rotated(T_D_W, 2, i, j, k);
+    const int3 in_block = (int3)(voxel & (BLOCK_SIZE - 1), (voxel >> BLOCK_SIZE_LOG2) & (BLOCK_SIZE - 1),
+                                 voxel >> (2 * BLOCK_SIZE_LOG2));
+    const float3 first = transform_point(T_D_W, convert_float3(block * BLOCK_SIZE + in_block) * size);
+    const vfloat z = first.z + lane_z;
     const vfloat per_z = 1.0f / z;
-    const vint u = TO_VINT(floor(camera.fx * x * per_z + (camera.cx + 0.5f)));
-    const vint v = TO_VINT(floor(camera.fy * y * per_z + (camera.cy + 0.5f)));
-    vint updated = (z > 0.0f) & (u >= 0) & (u < camera.width) & (v >= 0) & (v < camera.height);
+    const vfloat u = camera.fx * (first.x + lane_x) * per_z + (camera.cx + 0.5f);
+    const vfloat v = camera.fy * (first.y + lane_y) * per_z + (camera.cy + 0.5f);
+    vint updated = (z > 0.0f) & (u >= 0.0f) & (u < camera.width) & (v >= 0.0f) & (v < camera.height);
+    const vint pixel = select((vint)(0), pixel_indices(TO_VINT(u), TO_VINT(v), camera), updated);
+    const vfloat measured = GATHER(vfloat, depth, pixel);
+    const vfloat measured_steps = min((measured - z) * ray_steps_per_m, 2.0f * TSDF_MAX);
+    updated = updated & (measured > 0.0f) & (measured_steps >= -TSDF_MAX);
 
-    const vint old_distance = TO_VINT(VLOAD(distances + voxel));
-    vint new_distance = old_distance;
+    vchar distance = VLOAD(distances + voxel);
     if (ANY(updated)) {
-      const vint pixel = select((vint)(IMAGE_GUARD), pixel_indices(u, v, camera), updated);
-      const vfloat measured = GATHER(vfloat, depth, pixel);
-      // distance along the ray, the paper's simplest estimate of T_k
-      const vfloat distance_m = (measured - z) * sqrt((x * x + y * y) * per_z * per_z + 1.0f);
-      updated = updated & (measured > 0.0f) & (distance_m >= -grid.truncation_m);
-      if (ANY(updated)) {
-        const vint known = old_distance != TSDF_CHI;
-        const vfloat weight = TO_VFLOAT(VLOAD(weights + voxel));
-        const vfloat measured_weight =
-            clamp(args.weight_at_1m / (measured * measured), args.min_weight, args.max_measurement_weight);
-        const vfloat measured_steps = min(distance_m * steps_per_m, 2.0f * TSDF_MAX);
-        const vfloat old_steps = TO_VFLOAT(old_distance);
-        const vfloat gain = measured_weight / (weight + measured_weight);
-        const vfloat steps = select(measured_steps, old_steps + gain * (measured_steps - old_steps), known);
-        const vfloat total = select(measured_weight, weight + measured_weight, known);
-        const vfloat random = dither(index, block, args.frame);
-        const vint rounded = TO_VINT(floor(steps + random));
-        const vint clamped = select(max(rounded, (vint)(-TSDF_MAX)), (vint)(TSDF_CHI), rounded > TSDF_MAX);
-        new_distance = select(old_distance, clamped, updated);
-        const vuchar new_weight = TO_VUCHAR(min(floor(total + 1.0f - random), args.max_weight));
-        VSTORE(TO_VCHAR(new_distance), distances + voxel);
-        VSTORE(select(VLOAD(weights + voxel), new_weight, TO_VMASK8(updated)), weights + voxel);
-      }
+      const vuchar old_weight = VLOAD(weights + voxel);
+      const vfloat old_steps = TO_VFLOAT(distance);
+      const vint known = old_steps != TSDF_CHI;
+      const vfloat weight = select((vfloat)(0.0f), TO_VFLOAT(old_weight), known);
+      const vfloat measured_weight = clamp(args.weight_at_1m * per_z * per_z, args.min_weight,
+                                           args.max_measurement_weight);
+      const vfloat total = weight + measured_weight;
+      const vfloat base_steps = select(measured_steps, old_steps, known);
+      const vfloat steps = base_steps + measured_weight / total * (measured_steps - base_steps);
+      const vuint phase = dither_phase(voxel, block, args.frame) + lane_phase;
+      const vfloat random = TO_VFLOAT(AS_VINT(phase >> 8)) * (1.0f / 16777216.0f);
+      // truncation of a positive number rounds down
+      const vint rounded = max(TO_VINT(steps + (random + 512.0f)) - 512, (vint)(-TSDF_MAX));
+      const vint fused = select(rounded, (vint)(TSDF_CHI), rounded > TSDF_MAX);
+      const vint new_weight = TO_VINT(min(total + (1.0f - random), args.max_weight));
+      distance = select(distance, TO_VCHAR(fused), TO_VMASK8(updated));
+      VSTORE(distance, distances + voxel);
+      VSTORE(select(old_weight, TO_VUCHAR(new_weight), TO_VMASK8(updated)), weights + voxel);
     }
-    const vint has_data = new_distance != TSDF_CHI;
-    if (ANY(has_data)) {
-      state |= BLOCK_HAS_DATA;
-      const vint near = has_data & (fabs(TO_VFLOAT(new_distance)) <= near_surface);
-      if (ANY(near)) state |= BLOCK_NEAR_SURFACE;
-    }
+    smallest = min(smallest, abs(distance));
   }
+
+  uchar lanes[SIMD_WIDTH];
+  VSTORE(smallest, lanes);
+  for (int i = 1; i < SIMD_WIDTH; ++i) lanes[0] = min(lanes[0], lanes[i]);
+  const int state = (lanes[0] <= TSDF_MAX ? BLOCK_HAS_DATA : 0) |
+                    (lanes[0] <= 1.7320508f * size * steps_per_m ? BLOCK_NEAR_SURFACE : 0);
   if ((block_states[slot] & state) != state) atomic_or(block_states + slot, state);
 }

@@ -65,13 +65,13 @@ int simdWidth(const cl::Device& device, const DeviceInfo& info) {
   return device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() >= 16 ? 16 : 8;
 }
 
-void openDevice(ComputeContext::Impl& impl, const cl::Device& device) {
+void openDevice(ComputeContext::Impl& impl, const cl::Device& device, int simd_width) {
   impl.device = device;
   impl.info = infoOf(device);
   impl.context = cl::Context(device);
   impl.queue = cl::CommandQueue(impl.context, device);
   impl.programs.clear();
-  impl.simd_width = simdWidth(device, impl.info);
+  impl.simd_width = simd_width > 0 ? simd_width : simdWidth(device, impl.info);
 }
 
 // Runs a kernel that uses what the stages need (vectors, gathers, atomics) and compares its result.
@@ -99,7 +99,7 @@ std::vector<DeviceInfo> ComputeContext::listDevices() {
   return infos;
 }
 
-ComputeContext::ComputeContext(const std::string& choice) : impl_(std::make_unique<Impl>()) {
+ComputeContext::ComputeContext(const std::string& choice, int simd_width) : impl_(std::make_unique<Impl>()) {
   const char* environment = std::getenv("DEPTH_FUSION_DEVICE");
   const std::string wanted = choice.empty() && environment != nullptr ? environment : choice;
   const std::vector<cl::Device> devices = allDevices();
@@ -118,7 +118,7 @@ ComputeContext::ComputeContext(const std::string& choice) : impl_(std::make_uniq
       continue;
     }
     try {
-      openDevice(*impl_, devices[index]);
+      openDevice(*impl_, devices[index], simd_width);
       selfTest(*this);
       impl_->report = label + " (" + info.platform + ", " + info.version + ", vectors of " +
                       std::to_string(impl_->simd_width) + "), self-test passed" + refused;

@@ -4,7 +4,7 @@ namespace depth_fusion {
 
 Kernel::Kernel(ComputeContext& compute, const std::string& file, const std::string& name,
                const std::string& options)
-    : compute_(&compute.impl()), name_(name), is_cpu_(compute.device().is_cpu) {
+    : compute_(&compute.impl()), name_(name) {
   const cl::Program& program = compute_->program(file, options);
   try {
     kernel_ = cl::Kernel(program, name.c_str());

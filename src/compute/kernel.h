@@ -23,7 +23,7 @@ class Kernel {
   // Runs work-items [0, columns) x [0, rows), and up to a work-group's width beyond in columns.
   template <class... Arguments>
   void run2d(size_t columns, size_t rows, const Arguments&... arguments) {
-    const size_t group_width = is_cpu_ ? 4 : 64;
+    const size_t group_width = compute_->simd_width == 1 ? 64 : 4;
     enqueue(cl::NDRange(roundUp(columns, group_width), rows), cl::NDRange(group_width, 1), arguments...);
   }
 
@@ -63,7 +63,6 @@ class Kernel {
   ComputeContext::Impl* compute_;
   cl::Kernel kernel_;
   std::string name_;
-  bool is_cpu_;
 };
 
 }  // namespace depth_fusion

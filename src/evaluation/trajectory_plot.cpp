@@ -157,15 +157,15 @@ void drawColorBar(cv::Mat& canvas, const cv::Rect& bar, double max_error_m) {
   cv::rectangle(canvas, bar, kInk, 1);
   for (int tick = 0; tick <= 4; ++tick) {
     const int y = bar.br().y - bar.height * tick / 4;
-    writeText(canvas, number("%.1f", max_error_m * 1000.0 * tick / 4), {bar.br().x + 8, y + 5});
+    writeText(canvas, number("%.3g", max_error_m * 1000.0 * tick / 4), {bar.br().x + 8, y + 5});
   }
   writeText(canvas, "error [mm]", {bar.x - 15, bar.y - 14});
 }
 
 std::string titleOf(const TrajectoryError& error) {
-  return number("Trajectory error: ATE RMSE %.1f mm", error.ate_m.rmse * 1000.0) +
-         number(", median %.1f mm", error.ate_m.median * 1000.0) +
-         number(", max %.1f mm", error.ate_m.max * 1000.0) + ", " + std::to_string(error.pairs.size()) +
+  return number("Trajectory error: ATE RMSE %.3g mm", error.ate_m.rmse * 1000.0) +
+         number(", median %.3g mm", error.ate_m.median * 1000.0) +
+         number(", max %.3g mm", error.ate_m.max * 1000.0) + ", " + std::to_string(error.pairs.size()) +
          " poses";
 }
 

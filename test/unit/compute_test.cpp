@@ -56,6 +56,7 @@ TEST(ComputeContext, ChoosesByIndexAndByAPartOfTheName) {
   const std::vector<DeviceInfo> devices = ComputeContext::listDevices();
   const std::string name = devices.front().name;
   EXPECT_EQ(ComputeContext("0").device().name, name);
+  EXPECT_THROW(ComputeContext(std::to_string(devices.size())), Error);
   EXPECT_EQ(ComputeContext(upperCase(name.substr(0, 6))).device().name.substr(0, 6), name.substr(0, 6));
 }
 

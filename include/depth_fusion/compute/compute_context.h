@@ -24,7 +24,8 @@ class ComputeContext {
   // choice: empty = the first device that passes the self-test, GPUs before CPUs; a number = index in
   // listDevices(); "gpu" or "cpu"; or a part of a device's name (any case). Empty falls back on the environment
   // variable DEPTH_FUSION_DEVICE. Throws Error if no device fits, saying why each was refused.
-  explicit ComputeContext(const std::string& choice = "");
+  // simd_width: pixels or voxels that a work-item handles, 1, 8 or 16; 0 = 1 on GPUs, what the vector unit holds on CPUs.
+  explicit ComputeContext(const std::string& choice = "", int simd_width = 0);
   ~ComputeContext();
   ComputeContext(const ComputeContext&) = delete;
   ComputeContext& operator=(const ComputeContext&) = delete;

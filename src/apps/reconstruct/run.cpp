@@ -128,7 +128,7 @@ void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
 
 void Run::showProgress(bool last) {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
-  if (!last && !terminal && counts_.read % 50 != 0) return;
+  if (!terminal && last == (counts_.read % 50 == 0)) return;
   const double frame_ms = percentile(pipeline_->timers().samplesMs().at("frame"), 0.5);
   std::printf("%sframe %zu/%zu  %.1f ms (%.0f fps)  %zu blocks  %zu lost  %-30s%s", terminal ? "\r" : "",
               counts_.read, recording_->frameCount(), frame_ms, 1000.0 / frame_ms, pipeline_->map().usage().blocks,
