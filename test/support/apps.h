@@ -40,7 +40,8 @@ inline AppRun runApp(const std::string& app, const std::vector<std::string>& arg
   for (const std::string& argument : arguments) command += " " + shellQuoted(argument);
   command += " >" + shellQuoted(folder / "output") + " 2>" + shellQuoted(folder / "errors");
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, fileBytes(folder / "output"), fileBytes(folder / "errors")};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, fileBytes(folder / "output"),
+          fileBytes(folder / "errors")};
 }
 
 inline nlohmann::json readReport(const std::string& output_folder) {

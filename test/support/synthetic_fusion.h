@@ -23,9 +23,11 @@ inline Reconstruction reconstruct(ComputeContext& compute, SimulatedRecording& r
   if (poses == Poses::kTracked) result.T_W_M = recording.poseOf(0).T_W_D;
   std::unique_ptr<ReconstructionPipeline> pipeline;
   while (const std::optional<RgbdFrame> frame = recording.next()) {
-    if (!pipeline) pipeline = std::make_unique<ReconstructionPipeline>(compute, parameters, frame->intrinsics);
-    const TrackingResult tracking = poses == Poses::kGiven ? pipeline->processFrame(*frame, *frame->T_W_D).tracking
-                                                           : pipeline->processFrame(*frame).tracking;
+    if (!pipeline)
+      pipeline = std::make_unique<ReconstructionPipeline>(compute, parameters, frame->intrinsics);
+    const TrackingResult tracking = poses == Poses::kGiven
+                                        ? pipeline->processFrame(*frame, *frame->T_W_D).tracking
+                                        : pipeline->processFrame(*frame).tracking;
     if (tracking.status == TrackingStatus::kLost) {
       ++result.lost;
       continue;

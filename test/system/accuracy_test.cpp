@@ -9,8 +9,8 @@
 namespace depth_fusion {
 namespace {
 
-MeshError meshError(const Reconstruction& result, const SimulatedRecording& recording, const Pose& T_W_M) {
-  const MeshError error = compareMesh(result.mesh, T_W_M, recording.scene().surface);
+MeshError meshError(const Reconstruction& result, const SimulatedRecording& recording) {
+  const MeshError error = compareMesh(result.mesh, result.T_W_M, recording.scene().surface);
   std::printf("mesh of %.2f m^2: mean %.3f mm, 95 %% %.3f mm\n", error.area_m2, 1000.0 * error.surface_m.mean,
               1000.0 * error.surface_m.percentile95);
   return error;
@@ -22,8 +22,10 @@ TrajectoryError trajectoryError(const Reconstruction& result) {
   return error;
 }
 
+// Three times the scene's own speed: much of it in few frames.
 SimulationOptions simulation(const std::string& scene, int frames, bool noise) {
   SimulationOptions options;
+  options.speed = 3.0;
   options.scene = scene;
   options.frames = frames;
   options.noise = noise;
@@ -42,9 +44,9 @@ PipelineParameters closeRange() {
 
 TEST(Accuracy, room_without_noise_at_given_poses) {
   ComputeContext compute;
-  SimulatedRecording recording(simulation("room", 100, false));
+  SimulatedRecording recording(simulation("room", 60, false));
   const Reconstruction result = reconstruct(compute, recording, {}, Poses::kGiven);
-  const MeshError error = meshError(result, recording, result.T_W_M);
+  const MeshError error = meshError(result, recording);
   EXPECT_GT(error.area_m2, 10.0);
   EXPECT_LE(error.surface_m.mean, 0.0005);
   EXPECT_LE(error.surface_m.percentile95, 0.0015);
@@ -52,24 +54,25 @@ TEST(Accuracy, room_without_noise_at_given_poses) {
 
 TEST(Accuracy, room_with_noise_tracked) {
   ComputeContext compute;
-  SimulatedRecording recording(simulation("room", 120, true));
+  SimulatedRecording recording(simulation("room", 100, true));
   const Reconstruction result = reconstruct(compute, recording, {}, Poses::kTracked);
   EXPECT_EQ(result.lost, 0u);
   EXPECT_LE(trajectoryError(result).ate_m.rmse, 0.010);
-  const MeshError error = meshError(result, recording, result.T_W_M);
-  EXPECT_LE(error.surface_m.mean, 0.005);
+  const MeshError error = meshError(result, recording);
+  EXPECT_LE(error.surface_m.mean, 0.002);
+  EXPECT_LE(error.surface_m.percentile95, 0.006);
 }
 
-TEST(Accuracy, close_range_object_with_noise) {
+TEST(Accuracy, close_range_object_with_noise_tracked) {
   ComputeContext compute;
-  for (const Poses poses : {Poses::kGiven, Poses::kTracked}) {
-    SimulatedRecording recording(simulation("object", 100, true));
-    const Reconstruction result = reconstruct(compute, recording, closeRange(), poses);
-    EXPECT_EQ(result.lost, 0u);
-    const TrajectoryError trajectory = trajectoryError(result);
-    const MeshError error = meshError(result, recording, trajectory.T_W_E);
-    EXPECT_LE(error.surface_m.mean, 0.0005);
-  }
+  SimulatedRecording recording(simulation("object", 60, true));
+  const Reconstruction result = reconstruct(compute, recording, closeRange(), Poses::kTracked);
+  EXPECT_EQ(result.lost, 0u);
+  EXPECT_LE(trajectoryError(result).ate_m.rmse, 0.0005);
+  const MeshError error = meshError(result, recording);
+  EXPECT_GT(error.area_m2, 0.25);
+  EXPECT_LE(error.surface_m.mean, 0.0002);
+  EXPECT_LE(error.surface_m.percentile95, 0.0005);
 }
 
 }  // namespace

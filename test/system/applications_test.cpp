@@ -26,13 +26,21 @@ class Applications : public testing::Test {
   static std::string room() { return *folder_ / "room"; }
   static std::string out() { return *folder_ / "out"; }
   static std::string inFolder(const std::string& name) { return *folder_ / name; }
-  // The outcome of `evaluate --json` for what reconstruct wrote.
-  static Json evaluated(const std::string& output_folder) {
-    const AppRun run = runApp("evaluate", {"--trajectory", output_folder + "/trajectory.txt", "--groundtruth",
-                                           room() + "/groundtruth.txt", "--mesh", output_folder + "/mesh.ply",
-                                           "--scene", "room", "--json"});
+  // `evaluate` with the exact poses of the room.
+  static Json evaluate(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--groundtruth", room() + "/groundtruth.txt", "--json"});
+    const AppRun run = runApp("evaluate", arguments);
     EXPECT_EQ(run.status, 0) << run.errors;
     return Json::parse(run.output);
+  }
+  // The mesh is placed by the first pose: the way of a few frames is too straight for an alignment.
+  static void expectAccurate(const std::string& output) {
+    const Json trajectory = evaluate({"--trajectory", output + "/trajectory.txt"})["trajectory"];
+    EXPECT_EQ(trajectory["compared_poses"], std::stoi(kFrames));
+    EXPECT_LE(trajectory["ate_m"]["rmse"], 0.005);
+    const Json mesh = evaluate({"--mesh", output + "/mesh.ply", "--scene", room()})["mesh"];
+    EXPECT_LE(mesh["surface_m"]["mean"], 0.005);
+    EXPECT_GE(mesh["area_m2"], 4.0);
   }
 
   inline static std::unique_ptr<TemporaryFolder> folder_;
@@ -45,24 +53,18 @@ void expectStatistics(const Json& statistics, const std::string& what) {
   EXPECT_GE(statistics["p95"], statistics["median"]) << what;
 }
 
-void expectAccurate(const Json& evaluation) {
-  EXPECT_EQ(evaluation["trajectory"]["compared_poses"], std::stoi(kFrames));
-  EXPECT_LE(evaluation["trajectory"]["ate_m"]["rmse"], 0.005);
-  EXPECT_LE(evaluation["mesh"]["surface_m"]["mean"], 0.005);
-  EXPECT_GE(evaluation["mesh"]["area_m2"], 4.0);
-}
-
 TEST_F(Applications, simulate_and_reconstruct_say_what_they_do) {
   EXPECT_EQ(simulated_.status, 0);
   EXPECT_EQ(simulated_.errors, "");
   EXPECT_EQ(reconstructed_.status, 0);
   EXPECT_EQ(reconstructed_.errors, "");
-  for (const std::string text : {"device: ", "input: TUM layout", "frame 10/10", " fps", "tracking", "mesh.ply"}) {
+  for (const std::string text :
+       {"device: ", "input: TUM layout", "frame 10/10", " fps", "tracking", "mesh.ply"}) {
     EXPECT_NE(reconstructed_.output.find(text), std::string::npos) << "'" << text << "' is missing";
   }
 }
 
-TEST_F(Applications, result_is_accurate) { expectAccurate(evaluated(out())); }
+TEST_F(Applications, result_is_accurate) { expectAccurate(out()); }
 
 TEST_F(Applications, trajectory_has_a_line_a_frame_with_the_depth_stamps) {
   const std::vector<TimedFile> depth_files = readTimedFiles(room() + "/depth.txt");
@@ -109,7 +111,7 @@ TEST_F(Applications, bag_gives_the_same_as_the_folder) {
   const AppRun run = runApp("reconstruct", {"--input", bag, "--output", inFolder("bag_out")});
   ASSERT_EQ(run.status, 0) << run.errors;
   EXPECT_NE(run.output.find("input: bag"), std::string::npos);
-  expectAccurate(evaluated(inFolder("bag_out")));
+  expectAccurate(inFolder("bag_out"));
 }
 
 TEST_F(Applications, given_poses_take_the_place_of_tracking) {
@@ -125,12 +127,19 @@ TEST_F(Applications, given_poses_take_the_place_of_tracking) {
 }
 
 TEST_F(Applications, options_reach_the_parameters_and_win_over_the_file) {
-  writeText(inFolder("parameters.yaml"), "map: {voxel_size_m: 0.02, pool_mib: 64}\ntsdf_fusion: {max_weight: 100}\n");
+  writeText(inFolder("parameters.yaml"),
+            "map: {voxel_size_m: 0.02, pool_mib: 64}\ntsdf_fusion: {max_weight: 100}\n");
   const std::string output = inFolder("options_out");
-  const AppRun run = runApp("reconstruct", {"--voxel-size", "0.01", "--blocks-per-axis", "64", "--block-size", "16",
-                                            "--max-range", "3", "--intrinsics", "525,525,319.5,239.5", "--params",
-                                            inFolder("parameters.yaml"), "--max-frames", "3", "--device", "0",
-                                            "--input", room(), "--output", output});
+  const AppRun run = runApp("reconstruct", {"--voxel-size",      "0.01",
+                                            "--blocks-per-axis", "64",
+                                            "--block-size",      "16",
+                                            "--max-range",       "3",
+                                            "--intrinsics",      "525,525,319.5,239.5",
+                                            "--params",          inFolder("parameters.yaml"),
+                                            "--max-frames",      "3",
+                                            "--device",          "0",
+                                            "--input",           room(),
+                                            "--output",          output});
   ASSERT_EQ(run.status, 0) << run.errors;
   const Json parameters = readReport(output)["parameters"];
   EXPECT_FLOAT_EQ(parameters["map/voxel_size_m"], 0.01f);
@@ -143,9 +152,8 @@ TEST_F(Applications, options_reach_the_parameters_and_win_over_the_file) {
 }
 
 TEST_F(Applications, render_draws_the_mesh) {
-  const AppRun run =
-      runApp("render", {"--mesh", out() + "/mesh.ply", "--output", inFolder("mesh.png"), "--width", "320", "--height",
-                        "240"});
+  const AppRun run = runApp("render", {"--mesh", out() + "/mesh.ply", "--output", inFolder("mesh.png"),
+                                       "--width", "320", "--height", "240"});
   ASSERT_EQ(run.status, 0) << run.errors;
   const std::string picture = fileBytes(inFolder("mesh.png"));
   EXPECT_EQ(picture.substr(1, 3), "PNG");
@@ -155,9 +163,9 @@ TEST_F(Applications, render_draws_the_mesh) {
 TEST_F(Applications, help_names_every_option) {
   const AppRun run = runApp("reconstruct", {"--help"});
   EXPECT_EQ(run.status, 0);
-  for (const std::string option : {"--input", "--output", "--voxel-size", "--blocks-per-axis", "--block-size",
-                                   "--truncation", "--max-range", "--intrinsics", "--params", "--trajectory",
-                                   "--max-frames", "--device"}) {
+  for (const std::string option :
+       {"--input", "--output", "--voxel-size", "--blocks-per-axis", "--block-size", "--truncation",
+        "--max-range", "--intrinsics", "--params", "--trajectory", "--max-frames", "--device"}) {
     EXPECT_NE(run.output.find(option + " "), std::string::npos) << option;
   }
 }

@@ -1,5 +1,5 @@
-// What the apps say about bad input: one line on standard error with what, where and what to do, a failing exit
-// status, and what was fused so far written nevertheless.
+// What the apps say about bad input: one line on standard error with what, where and what to do, a failing
+// exit status, and what was fused so far written nevertheless.
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
@@ -34,7 +34,8 @@ class BadInput : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     suite_folder_ = std::make_unique<TemporaryFolder>();
-    const AppRun run = runApp("simulate", {"--output", *suite_folder_ / "room", "--frames", std::to_string(kFrames)});
+    const AppRun run =
+        runApp("simulate", {"--output", *suite_folder_ / "room", "--frames", std::to_string(kFrames)});
     ASSERT_EQ(run.status, 0) << run.errors;
   }
   static void TearDownTestSuite() { suite_folder_.reset(); }
@@ -68,12 +69,13 @@ class BadInput : public testing::Test {
 };
 
 TEST_F(BadInput, missing_folder) {
-  expectComplaint(reconstruct(folder_ / "nothing"), {"reconstruct: ", folder_ / "nothing", "no such folder", "check"});
+  expectComplaint(reconstruct(folder_ / "nothing"),
+                  {"reconstruct: ", folder_ / "nothing", "no such folder", "check"});
 }
 
 TEST_F(BadInput, empty_folder) {
   fs::create_directory(folder_ / "empty");
-  expectComplaint(reconstruct(folder_ / "empty"), {folder_ / "empty", "empty"});
+  expectComplaint(reconstruct(folder_ / "empty"), {folder_ / "empty", "is empty", "layout"});
 }
 
 TEST_F(BadInput, truncated_depth_image_is_named_and_the_rest_fused) {
@@ -144,8 +146,14 @@ TEST_F(BadInput, unknown_parameter) {
                   {folder_ / "parameters.yaml", "map/voxel_size", "map/voxel_size_m"});
 }
 
+TEST_F(BadInput, missing_parameter_file) {
+  expectComplaint(reconstruct(room(), {"--params", folder_ / "none.yaml"}),
+                  {folder_ / "none.yaml", "check the path"});
+}
+
 TEST_F(BadInput, parameter_out_of_range) {
-  expectComplaint(reconstruct(room(), {"--voxel-size", "-0.01"}), {"map/voxel_size_m", "-0.01", "must lie in"});
+  expectComplaint(reconstruct(room(), {"--voxel-size", "-0.01"}),
+                  {"map/voxel_size_m", "-0.01", "must lie in"});
 }
 
 TEST_F(BadInput, map_that_the_device_cannot_hold) {
@@ -157,16 +165,19 @@ TEST_F(BadInput, unknown_device) {
 }
 
 TEST_F(BadInput, no_device) {
-  expectComplaint(reconstruct(room(), {}, {"OCL_ICD_VENDORS=/nonexistent"}), {"no OpenCL device", "pocl-opencl-icd"});
+  expectComplaint(reconstruct(room(), {}, {"OCL_ICD_VENDORS=/nonexistent"}),
+                  {"no OpenCL device", "pocl-opencl-icd"});
 }
 
 TEST_F(BadInput, unreadable_trajectory) {
-  expectComplaint(reconstruct(room(), {"--trajectory", folder_ / "poses.txt"}), {folder_ / "poses.txt", "read"});
+  expectComplaint(reconstruct(room(), {"--trajectory", folder_ / "poses.txt"}),
+                  {folder_ / "poses.txt", "read"});
 }
 
 TEST_F(BadInput, trajectory_of_another_time) {
   writeText(folder_ / "poses.txt", "1000.0 0 0 0 0 0 0 1\n1001.0 0 0 0 0 0 0 1\n");
-  expectComplaint(reconstruct(room(), {"--trajectory", folder_ / "poses.txt"}), {folder_ / "poses.txt", "pose"});
+  expectComplaint(reconstruct(room(), {"--trajectory", folder_ / "poses.txt"}),
+                  {"no frame", room(), folder_ / "poses.txt"});
 }
 
 TEST_F(BadInput, full_pool_fuses_what_fits) {
@@ -175,12 +186,13 @@ TEST_F(BadInput, full_pool_fuses_what_fits) {
                   {"pool is full", "frame", "map/pool_mib", "--voxel-size"});
   EXPECT_GE(readTrajectory(out() + "/trajectory.txt").size(), 1u);
   EXPECT_GT(readPly(out() + "/mesh.ply").triangles.size(), 10000u);
-  EXPECT_EQ(readReport(out())["map"]["blocks"], readReport(out())["map"]["capacity"]);
+  const nlohmann::json map = readReport(out())["map"];
+  EXPECT_GT(map["blocks"].get<double>(), 0.9 * map["capacity"].get<double>());
 }
 
 TEST_F(BadInput, unwritable_output) {
   writeText(out(), "a file where the folder should be");
-  expectComplaint(reconstruct(room()), {out(), "cannot be written"});
+  expectComplaint(reconstruct(room()), {out(), "cannot be written", "--output"});
 }
 
 TEST_F(BadInput, one_file_that_cannot_be_written_leaves_the_others) {
@@ -228,16 +240,19 @@ TEST_F(BadInput, simulate_onto_a_full_disk) {
   const SmallDisk disk(folder_ / "disk");
   if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system needs root";
   for (const std::string name : {"disk/recording", "disk/recording.bag"}) {
-    expectComplaint(runApp("simulate", {"--output", folder_ / name, "--frames", "20"}), {"simulate: ", folder_ / name});
+    expectComplaint(runApp("simulate", {"--output", folder_ / name, "--frames", "20"}),
+                    {"simulate: ", folder_ / name});
   }
 }
 
 TEST_F(BadInput, other_apps) {
   expectComplaint(runApp("evaluate", {"--trajectory", folder_ / "a.txt", "--groundtruth", folder_ / "b.txt"}),
                   {"evaluate: ", folder_ / "b.txt", "read"});
-  expectComplaint(runApp("evaluate", {"--mesh", folder_ / "a.ply", "--scene", "castle"}), {"castle", "room, object"});
+  expectComplaint(runApp("evaluate", {"--mesh", folder_ / "a.ply", "--scene", "castle"}),
+                  {"castle", "room, object"});
   expectComplaint(runApp("render", {"--mesh", folder_ / "a.ply"}), {"render: ", folder_ / "a.ply"});
-  expectComplaint(runApp("simulate", {"--output", folder_ / "a", "--scene", "castle"}), {"castle", "room, object"});
+  expectComplaint(runApp("simulate", {"--output", folder_ / "a", "--scene", "castle"}),
+                  {"castle", "room, object"});
 }
 
 }  // namespace

@@ -6,12 +6,14 @@
 namespace depth_fusion {
 namespace {
 
-// One thread of PoCL takes the work-items in another order than several do; other platforms ignore the variable.
+// One thread of PoCL takes the work-items in another order than several do; other platforms ignore the
+// variable.
 TEST(Determinism, app_writes_the_same_bytes_every_time) {
   const TemporaryFolder folder;
   ASSERT_EQ(runApp("simulate", {"--output", folder / "room", "--frames", "12"}).status, 0);
   const auto reconstruct = [&](const std::string& name, const std::vector<std::string>& environment) {
-    const AppRun run = runApp("reconstruct", {"--input", folder / "room", "--output", folder / name}, environment);
+    const AppRun run =
+        runApp("reconstruct", {"--input", folder / "room", "--output", folder / name}, environment);
     ASSERT_EQ(run.status, 0) << run.errors;
   };
   reconstruct("first", {});

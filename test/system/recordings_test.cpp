@@ -28,7 +28,8 @@ void PrintTo(const RecordingCase& recording, std::ostream* stream) { *stream << 
 
 // The poses that the recording brings, frame by frame or in a file of their own.
 Trajectory truthOf(const std::string& folder) {
-  if (std::filesystem::exists(folder + "/groundtruth.txt")) return readTrajectory(folder + "/groundtruth.txt");
+  if (std::filesystem::exists(folder + "/groundtruth.txt"))
+    return readTrajectory(folder + "/groundtruth.txt");
   Trajectory truth;
   const auto recording = openFolder(folder, {});
   while (const auto frame = recording->next()) {
@@ -62,7 +63,8 @@ TEST_P(Recordings, no_frame_is_lost_and_memory_stays_in_bounds) {
   EXPECT_LE(report["tracking_peak_rss_bytes"].get<double>(), kMostTrackingBytes);
   EXPECT_LE(report["peak_rss_bytes"].get<double>(), kMostBytes);
 
-  const TrajectoryError error = compareTrajectories(readTrajectory(folder / "trajectory.txt"), truthOf(input));
+  const TrajectoryError error =
+      compareTrajectories(readTrajectory(folder / "trajectory.txt"), truthOf(input));
   EXPECT_GE(error.pairs.size(), recording.frames - 5);
   EXPECT_LE(error.ate_m.rmse, recording.max_ate_m);
 
@@ -70,7 +72,8 @@ TEST_P(Recordings, no_frame_is_lost_and_memory_stays_in_bounds) {
   EXPECT_GE(area_m2, kLeastArea_m2);
   std::printf("%s: ATE %.1f mm, mesh %.2f m^2, peak RSS %.0f MB, %.0f MB while tracking, %.1f ms a frame\n",
               recording.name.c_str(), 1000.0 * error.ate_m.rmse, area_m2,
-              report["peak_rss_bytes"].get<double>() / 1e6, report["tracking_peak_rss_bytes"].get<double>() / 1e6,
+              report["peak_rss_bytes"].get<double>() / 1e6,
+              report["tracking_peak_rss_bytes"].get<double>() / 1e6,
               report["frame_ms"]["median"].get<double>());
 }
 

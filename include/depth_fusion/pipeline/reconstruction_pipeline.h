@@ -44,7 +44,8 @@ class ReconstructionPipeline {
 
  private:
   const DepthFrame& preprocess(const RgbdFrame& frame);
-  TrackingResult track(const DepthFrame& depth);
+  // The first pose, if the frame has enough depth for the next one to be tracked against.
+  TrackingResult begin(const RgbdFrame& frame) const;
   FusionResult fuse(const DepthFrame& depth, const Pose& T_W_D);
 
   ComputeContext& compute_;
