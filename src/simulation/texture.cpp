@@ -1,4 +1,5 @@
 // Procedural textures, made of hashed lattice values.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -51,6 +52,20 @@ double wood(const Vector3d& p) {
   return 0.7 * std::sin(9.0 * smoothNoise(along_grain)) + 0.4 * smoothNoise(6.0 * p);
 }
 
+// Spots of every size, each octave with steep sides. The finer ones keep most of the amplitude, so that small
+// patches differ as much as large ones.
+double mottle(const Vector3d& p) {
+  constexpr double kSteepness = 4.0;
+  double value = 0.0, frequency = 1.0, amplitude = 0.4;
+  for (int octave = 0; octave < 5; ++octave) {
+    const double noise = smoothNoise(frequency * p + Vector3d::Constant(17.3 * octave));
+    value += amplitude * std::clamp(kSteepness * noise, -1.0, 1.0);
+    frequency *= 2.03;
+    amplitude *= 0.95;
+  }
+  return value;
+}
+
 // The pattern's brightness about 0, mostly within [-1, 1].
 double brightness(Pattern pattern, const Vector3d& p) {
   switch (pattern) {
@@ -62,6 +77,8 @@ double brightness(Pattern pattern, const Vector3d& p) {
       return tiles(p);
     case Pattern::kWood:
       return wood(p);
+    case Pattern::kMottle:
+      return mottle(p);
   }
   return 0.0;
 }
