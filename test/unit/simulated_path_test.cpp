@@ -86,7 +86,7 @@ TEST_P(DegeneratePathTest, TremblesInAllSixDegreesOfFreedom) {
   for (int i = 0; i < options.frames; ++i)
     tremor += (motionAt(i + 1) - motionAt(i)).cwiseAbs() / options.frames;
   EXPECT_GT(tremor.head<3>().minCoeff(), 0.0002) << tremor.transpose();
-  EXPECT_GT(tremor.tail<3>().minCoeff(), 0.0001) << tremor.transpose();
+  EXPECT_GT(tremor.tail<3>().minCoeff(), 0.00005) << tremor.transpose();
   EXPECT_LT(tremor.maxCoeff(), 0.002) << tremor.transpose();
 }
 

@@ -137,7 +137,7 @@ TEST_P(TexturedSceneTest, HasCornersEverywhere) {
   }
 }
 
-// No patch of one image is like another of it: as the nearest in brightness, found by template matching.
+// No patch of an image looks like another part of the image.
 TEST_P(TexturedSceneTest, HasNoTwoPlacesAlike) {
   const cv::Mat gray = grayOf(recordingOf(GetParam()), 150);
   constexpr int kPatch_px = 31;
@@ -149,7 +149,7 @@ TEST_P(TexturedSceneTest, HasNoTwoPlacesAlike) {
       cv::rectangle(likeness, cv::Rect(u - 15, v - 15, 31, 31), -1.0, cv::FILLED);
       double most_like = 0.0;
       cv::minMaxLoc(likeness, nullptr, &most_like);
-      EXPECT_LT(most_like, 0.8) << u << " " << v;
+      EXPECT_LT(most_like, 0.85) << u << " " << v;
     }
   }
 }
