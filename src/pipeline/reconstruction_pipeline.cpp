@@ -40,10 +40,9 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
   const StageTimers::Scope timer(timers_, "frame");
   FrameResult result;
   const DepthFrame& depth = preprocess(frame);
-  result.tracking = track(depth);
+  result.tracking = view_ == nullptr ? begin(frame) : tracker_.track(depth, *view_, view_->T_W_D, timers_);
   if (result.tracking.status == TrackingStatus::kLost) return result;
-  fuse(depth, result);
-  if (result.tracking.status == TrackingStatus::kLost) return result;
+  result.fusion = fuse(depth, result.tracking.T_W_D);
   view_ = &renderer_.render(result.tracking.T_W_D, parameters_.preprocessing.min_range_m,
                             parameters_.preprocessing.max_range_m, timers_);
   return result;
@@ -55,7 +54,11 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   const DepthFrame& depth = preprocess(frame);
   result.tracking.status = TrackingStatus::kTracking;
   result.tracking.T_W_D = T_W_D;
-  fuse(depth, result);
+  result.fusion = fuse(depth, T_W_D);
+  if (result.fusion.blocks_updated == 0) {
+    result.tracking.status = TrackingStatus::kLost;
+    result.tracking.reason = "no depth in range";
+  }
   return result;
 }
 
@@ -66,20 +69,23 @@ const DepthFrame& ReconstructionPipeline::preprocess(const RgbdFrame& frame) {
   return depth;
 }
 
-TrackingResult ReconstructionPipeline::track(const DepthFrame& depth) {
-  if (view_ != nullptr) return tracker_.track(depth, *view_, view_->T_W_D, timers_);
+TrackingResult ReconstructionPipeline::begin(const RgbdFrame& frame) const {
+  cv::Mat in_range;
+  cv::inRange(frame.depth, parameters_.preprocessing.min_range_m / frame.depth_unit_m,
+              parameters_.preprocessing.max_range_m / frame.depth_unit_m, in_range);
+  const int points = cv::countNonZero(in_range);
   TrackingResult first;
-  first.status = TrackingStatus::kTracking;
+  if (points < parameters_.icp_tracking.min_inliers) {
+    first.reason = "only " + std::to_string(points) + " points with depth in range to begin with";
+  } else {
+    first.status = TrackingStatus::kTracking;
+  }
   return first;
 }
 
-void ReconstructionPipeline::fuse(const DepthFrame& depth, FrameResult& result) {
-  TrackingResult& tracking = result.tracking;
-  if (map_.usage().blocks == 0) map_.reset(windowCentre(parameters_.map, tracking.T_W_D));
-  result.fusion = fusion_.integrate(depth, tracking.T_W_D, timers_);
-  if (result.fusion.blocks_updated > 0) return;
-  tracking.status = TrackingStatus::kLost;
-  tracking.reason = "no depth in range";
+FusionResult ReconstructionPipeline::fuse(const DepthFrame& depth, const Pose& T_W_D) {
+  if (map_.usage().blocks == 0) map_.reset(windowCentre(parameters_.map, T_W_D));
+  return fusion_.integrate(depth, T_W_D, timers_);
 }
 
 }  // namespace depth_fusion

@@ -13,7 +13,7 @@ std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOp
         path + ": is no recording; give a .bag file or a folder in the TUM or 7-Scenes layout");
   const bool is_empty = std::filesystem::is_empty(path, unreadable);
   check(!unreadable, path + ": the folder cannot be read: " + unreadable.message());
-  check(!is_empty, path + ": the folder is empty");
+  check(!is_empty, path + ": the folder is empty; give one in the TUM or 7-Scenes layout");
   if (hasTumLayout(path)) return openTumFolder(path, options);
   if (hasSevenScenesLayout(path)) return openSevenScenesFolder(path, options);
   throw Error(

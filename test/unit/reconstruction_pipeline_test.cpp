@@ -85,7 +85,7 @@ TEST(ReconstructionPipeline, TracksAndFusesTheRoom) {
 
 TEST(ReconstructionPipeline, StartsWithTheFirstFrameThatHasDepth) {
   ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
-  for (int i = 0; i < 3; ++i) expectLost(pipeline.processFrame(frameWithoutDepth()), "no depth in range");
+  for (int i = 0; i < 3; ++i) expectLost(pipeline.processFrame(frameWithoutDepth()), "only 0 points with depth in range");
   EXPECT_EQ(pipeline.map().usage().blocks, 0u);
   const FrameResult first = pipeline.processFrame(roomFrames()[0]);
   ASSERT_TRUE(isTracking(first));

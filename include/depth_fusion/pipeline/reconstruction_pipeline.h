@@ -45,8 +45,9 @@ class ReconstructionPipeline {
 
  private:
   const DepthFrame& preprocess(const RgbdFrame& frame);
-  TrackingResult track(const DepthFrame& depth);
-  void fuse(const DepthFrame& depth, FrameResult& result);
+  // The first pose, if the frame has enough depth for the next one to be tracked against.
+  TrackingResult begin(const RgbdFrame& frame) const;
+  FusionResult fuse(const DepthFrame& depth, const Pose& T_W_D);
 
   ComputeContext& compute_;
   PipelineParameters parameters_;
