@@ -15,7 +15,7 @@ class RayCaster {
 
   // Depth of the first place where the ray (z = 1) goes from free space through the surface; 0 = none.
   double cast(const Pose& T_W_D, const Eigen::Vector3d& ray_D, double min_range_m, double max_range_m) const {
-    const double step_m = 0.1 * map_.voxel_size_m / ray_D.norm();
+    const double step_m = 0.25 * map_.voxel_size_m / ray_D.norm();
     double previous = std::nan("");
     for (double t = min_range_m; t < max_range_m; t += step_m) {
       const double distance = interpolated(T_W_D * Eigen::Vector3d(t * ray_D));

@@ -8,15 +8,11 @@
 #include "geometry/kernel_args.h"
 #include "reference/depth_preprocessing.h"
 #include "support/expect_error.h"
+#include "support/test_compute.h"
 #include "support/test_frames.h"
 
 namespace depth_fusion {
 namespace {
-
-ComputeContext& compute() {
-  static ComputeContext context;
-  return context;
-}
 
 CameraIntrinsics cameraOfSize(int width, int height) {
   return {width, height, 0.8 * width, 0.82 * width, 0.5 * width - 0.7, 0.5 * height + 0.3};

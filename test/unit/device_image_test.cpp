@@ -2,18 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "depth_fusion/compute/compute_context.h"
 #include "geometry/kernel_args.h"
 #include "support/expect_error.h"
+#include "support/test_compute.h"
 #include "support/test_frames.h"
 
 namespace depth_fusion {
 namespace {
-
-ComputeContext& compute() {
-  static ComputeContext context;
-  return context;
-}
 
 CameraIntrinsics cameraOfSize(int width, int height) { return {width, height, 100.0, 100.0, 5.0, 5.0}; }
 

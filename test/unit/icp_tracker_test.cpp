@@ -7,16 +7,12 @@
 #include "icp_tracking/icp_tracking_kernels.h"
 #include "reference/icp_system.h"
 #include "shared/types.h"
+#include "support/test_compute.h"
 
 namespace depth_fusion {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-
-ComputeContext& compute() {
-  static ComputeContext context;
-  return context;
-}
 
 CameraIntrinsics cameraOfWidth(int width) {
   const double scale = width / 640.0;

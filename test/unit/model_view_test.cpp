@@ -11,6 +11,7 @@
 #include "reference/map_from_distance.h"
 #include "reference/model_view.h"
 #include "shared/types.h"
+#include "support/test_compute.h"
 
 namespace depth_fusion {
 namespace {
@@ -18,11 +19,6 @@ namespace {
 constexpr CameraIntrinsics kCamera{101, 75, 95.0, 97.0, 50.3, 36.9};
 constexpr float kMinRange_m = 0.2f;
 constexpr float kMaxRange_m = 4.0f;
-
-ComputeContext& compute() {
-  static ComputeContext context;
-  return context;
-}
 
 MapParameters mapParameters(int block_size, int blocks_per_axis = 0) {
   MapParameters parameters;
@@ -253,8 +249,8 @@ TEST_P(ModelViewOfBlockSize, BlockRangesHoldEveryHit) {
     kernels.splatBlockRanges(*map, nearest, farthest, view, kMinRange_m, kMaxRange_m);
     const std::vector<float> start = nearest.read<float>(tiles), end = farthest.read<float>(tiles);
     int hits = 0;
-    for (int y = 0; y < kCamera.height; y += 2) {
-      for (int x = 0; x < kCamera.width; x += 2) {
+    for (int y = 0; y < kCamera.height; y += 3) {
+      for (int x = 0; x < kCamera.width; x += 3) {
         const double depth = caster.cast(view.T_W_D, rayThrough(x, y), kMinRange_m, 2.0);
         if (depth == 0.0) continue;
         ++hits;
@@ -263,7 +259,7 @@ TEST_P(ModelViewOfBlockSize, BlockRangesHoldEveryHit) {
         ASSERT_GE(end[i], depth - 1e-5) << x << " " << y;
       }
     }
-    EXPECT_GT(hits, 1000);
+    EXPECT_GT(hits, 400);
   }
 }
 

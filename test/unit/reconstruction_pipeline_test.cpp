@@ -6,17 +6,13 @@
 
 #include "depth_fusion/simulation/simulated_recording.h"
 #include "support/map_contents.h"
+#include "support/test_compute.h"
 
 namespace depth_fusion {
 namespace {
 
 constexpr CameraIntrinsics kCamera{160, 120, 131.25, 131.25, 79.5, 59.5};
 constexpr int kFrames = 12;
-
-ComputeContext& compute() {
-  static ComputeContext context;
-  return context;
-}
 
 PipelineParameters pipelineParameters() {
   PipelineParameters parameters;
@@ -85,7 +81,8 @@ TEST(ReconstructionPipeline, TracksAndFusesTheRoom) {
 
 TEST(ReconstructionPipeline, StartsWithTheFirstFrameThatHasDepth) {
   ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
-  for (int i = 0; i < 3; ++i) expectLost(pipeline.processFrame(frameWithoutDepth()), "only 0 points with depth in range");
+  for (int i = 0; i < 3; ++i)
+    expectLost(pipeline.processFrame(frameWithoutDepth()), "only 0 points with depth in range");
   EXPECT_EQ(pipeline.map().usage().blocks, 0u);
   const FrameResult first = pipeline.processFrame(roomFrames()[0]);
   ASSERT_TRUE(isTracking(first));

@@ -6,6 +6,7 @@
 
 #include "reference/tsdf_fusion.h"
 #include "support/device_frames.h"
+#include "support/test_compute.h"
 #include "support/test_frames.h"
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
@@ -18,11 +19,6 @@ using reference::View;
 using reference::Voxel;
 
 constexpr CameraIntrinsics kCamera{101, 74, 90.0, 92.0, 49.3, 37.1};
-
-ComputeContext& compute() {
-  static ComputeContext context;
-  return context;
-}
 
 MapParameters mapParameters(int block_size = 8, int blocks_per_axis = 32, float voxel_size_m = 0.02f) {
   MapParameters parameters;
