@@ -58,7 +58,7 @@ Run::Run(const RunOptions& options) : options_(options), compute_(options.device
   std::cout << "device: " << compute_.selfTestReport() << std::endl;
   recording_ = openRecording(options.input, options.recording);
   std::cout << "input: " << recording_->description() << std::endl;
-  if (!options.trajectory_file.empty()) poses_ = readTrajectory(options.trajectory_file);
+  if (!options.trajectory_file.empty()) poses_ = readPoses(options.trajectory_file);
   std::error_code error;
   std::filesystem::create_directories(options.output, error);
   check(!error && access(options.output.c_str(), W_OK) == 0,
