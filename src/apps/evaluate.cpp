@@ -26,7 +26,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   auto* trajectory =
       app.add_option("-t,--trajectory", arguments.trajectory, "estimated trajectory (TUM format)");
   auto* groundtruth =
-      app.add_option("-g,--groundtruth", arguments.groundtruth, "true trajectory (TUM format)");
+      app.add_option("-g,--groundtruth", arguments.groundtruth, "true trajectory (TUM format), or a recording's folder with poses");
   trajectory->needs(groundtruth);
   app.add_option("-p,--plot", arguments.plot, "picture of both trajectories to write (.png)")
       ->needs(trajectory);
@@ -118,7 +118,7 @@ void evaluate(const Arguments& arguments) {
   Json report = Json::object();
   Pose T_W_M = Pose::Identity();
   if (!arguments.groundtruth.empty()) {
-    const Trajectory truth = readTrajectory(arguments.groundtruth);
+    const Trajectory truth = readPoses(arguments.groundtruth);
     T_W_M = truth.front().T_W_D;
     if (!arguments.trajectory.empty()) {
       const TrajectoryError error =

@@ -49,8 +49,9 @@ void addOptions(CLI::App& app, RunOptions& options, std::vector<double>& intrins
       ->delimiter(',')
       ->expected(4);
   app.add_option("--params", options.parameter_file, "YAML file of `stage: {name: value}`; see --print-params");
-  app.add_option("--trajectory", options.trajectory_file, "TUM format; fuse at these poses instead of tracking");
-  app.add_option("--max-frames", options.max_frames, "stop after so many frames");
+  app.add_option("--trajectory", options.trajectory_file, "fuse at these poses (TUM format, or a folder that holds poses) instead of tracking");
+  app.add_option("--max-frames", options.max_frames, "stop after so many frames")
+      ->check(CLI::Range(1, 1000000000));
   app.add_option("--device", options.device, "OpenCL device: index, part of its name, cpu or gpu; `list` shows them");
   app.add_option("--depth-topic", options.recording.depth_topic, "of a bag, instead of the one found");
   app.add_option("--color-topic", options.recording.color_topic, "of a bag, instead of the one found");
@@ -86,6 +87,7 @@ int run(int argc, char** argv) {
     listDevices();
     return 0;
   }
+  validate(options.parameters.table());
   if (print_parameters) {
     printParameters(options.parameters);
     return 0;

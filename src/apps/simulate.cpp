@@ -41,6 +41,13 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--speed", simulation.speed,
                  "speed of the hand; 1 is about 0.3 m/s and 25 deg/s in the room")
       ->capture_default_str();
+  app.add_option("--linear-speed", simulation.linear_speed_m_s,
+                 "speed of the hand in m/s at the recording's fastest moment, in place of --speed")
+      ->check(CLI::PositiveNumber);
+  app.add_option(
+         "--turn-rate", simulation.turn_rate_deg_s,
+         "rotation in deg/s at the recording's fastest moment, in place of --speed (room, white_room)")
+      ->check(CLI::PositiveNumber);
   app.footer(
       "Example: simulate --output room --scene room --frames 300\n"
       "         reconstruct --input room --output out\n"

@@ -106,6 +106,8 @@ void loadParameterFile(const ParameterTable& table, const std::string& path) {
     const YAML::Node root = YAML::LoadFile(path);
     check(root.IsMap() || root.IsNull(), "the file holds no map of stages");
     flatten(root, "", table);
+  } catch (const YAML::BadFile&) {
+    throw Error("parameter file " + path + ": cannot be read; check the path");
   } catch (const std::exception& error) {
     throw Error("parameter file " + path + ": " + error.what());
   }

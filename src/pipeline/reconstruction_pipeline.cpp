@@ -40,7 +40,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
   const StageTimers::Scope timer(timers_, "frame");
   FrameResult result;
   const DepthFrame& depth = preprocess(frame);
-  result.tracking = track(depth);
+  result.tracking = view_ == nullptr ? begin(frame) : tracker_.track(depth, *view_, view_->T_W_D, timers_);
   if (result.tracking.status == TrackingStatus::kLost) return result;
   result.fusion = fuse(depth, result.tracking.T_W_D);
   view_ = &renderer_.render(result.tracking.T_W_D, parameters_.preprocessing.min_range_m,
@@ -55,6 +55,10 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   result.tracking.status = TrackingStatus::kTracking;
   result.tracking.T_W_D = T_W_D;
   result.fusion = fuse(depth, T_W_D);
+  if (result.fusion.blocks_updated == 0) {
+    result.tracking.status = TrackingStatus::kLost;
+    result.tracking.reason = "no depth in range";
+  }
   return result;
 }
 
@@ -65,10 +69,17 @@ const DepthFrame& ReconstructionPipeline::preprocess(const RgbdFrame& frame) {
   return depth;
 }
 
-TrackingResult ReconstructionPipeline::track(const DepthFrame& depth) {
-  if (view_ != nullptr) return tracker_.track(depth, *view_, {view_->T_W_D, std::nullopt}, timers_);
+TrackingResult ReconstructionPipeline::begin(const RgbdFrame& frame) const {
+  cv::Mat in_range;
+  cv::inRange(frame.depth, parameters_.preprocessing.min_range_m / frame.depth_unit_m,
+              parameters_.preprocessing.max_range_m / frame.depth_unit_m, in_range);
+  const int points = cv::countNonZero(in_range);
   TrackingResult first;
-  first.status = TrackingStatus::kTracking;
+  if (points < parameters_.icp_tracking.min_inliers) {
+    first.reason = "only " + std::to_string(points) + " points with depth in range to begin with";
+  } else {
+    first.status = TrackingStatus::kTracking;
+  }
   return first;
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/recording/trajectory_file.h"
 
 namespace depth_fusion {
 
@@ -13,12 +14,21 @@ std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOp
         path + ": is no recording; give a .bag file or a folder in the TUM or 7-Scenes layout");
   const bool is_empty = std::filesystem::is_empty(path, unreadable);
   check(!unreadable, path + ": the folder cannot be read: " + unreadable.message());
-  check(!is_empty, path + ": the folder is empty");
+  check(!is_empty, path + ": the folder is empty; give one in the TUM or 7-Scenes layout");
   if (hasTumLayout(path)) return openTumFolder(path, options);
   if (hasSevenScenesLayout(path)) return openSevenScenesFolder(path, options);
   throw Error(
       path +
       ": is no recording; expected depth.txt (TUM layout) or frame-000000.depth.png (7-Scenes layout)");
+}
+
+Trajectory readPoses(const std::string& file_or_folder) {
+  if (!std::filesystem::is_directory(file_or_folder)) return readTrajectory(file_or_folder);
+  if (hasTumLayout(file_or_folder)) return readTrajectory(file_or_folder + "/groundtruth.txt");
+  Trajectory poses;
+  if (hasSevenScenesLayout(file_or_folder)) poses = readSevenScenesPoses(file_or_folder);
+  check(!poses.empty(), file_or_folder + ": the folder holds no poses; give a file in the TUM format");
+  return poses;
 }
 
 }  // namespace depth_fusion

@@ -15,5 +15,6 @@ std::unique_ptr<Recording> openTumFolder(const std::string& folder, const Record
 // frame-XXXXXX.depth.png with .color.png or .color.jpg and .pose.txt beside it.
 bool hasSevenScenesLayout(const std::string& folder);
 std::unique_ptr<Recording> openSevenScenesFolder(const std::string& folder, const RecordingOptions& options);
+Trajectory readSevenScenesPoses(const std::string& folder);
 
 }  // namespace depth_fusion

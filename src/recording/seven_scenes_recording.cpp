@@ -149,4 +149,13 @@ std::unique_ptr<Recording> openSevenScenesFolder(const std::string& folder, cons
   return std::make_unique<SevenScenesRecording>(folder, options);
 }
 
+Trajectory readSevenScenesPoses(const std::string& folder) {
+  Trajectory poses;
+  for (const auto& [index, files] : listFrames(folder)) {
+    if (files.pose.empty()) continue;
+    if (const auto T_W_D = readPose(files.pose)) poses.push_back({static_cast<double>(index) / kFrameRate_hz, *T_W_D});
+  }
+  return poses;
+}
+
 }  // namespace depth_fusion

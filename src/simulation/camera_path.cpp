@@ -27,6 +27,7 @@ Pose lookAt(const Gaze& gaze) {
   const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
   Pose T_W_D = Pose::Identity();
   T_W_D.linear() << right, forward.cross(right), forward;
+  T_W_D.rotate(Eigen::AngleAxisd(gaze.roll_rad, Vector3d::UnitZ()));
   T_W_D.translation() = gaze.eye_W;
   return T_W_D;
 }
@@ -39,14 +40,22 @@ double Sway::operator()(int channel, double period_s) const {
          0.25 * std::sin(1.618 * angle + phase(seed_, 2 * channel + 1));
 }
 
-Pose handHeldPose(const GazePath& path, unsigned seed, double time_s) {
+Pose handHeldPose(const GazePath& path, unsigned seed, const HandSpeed& speed, double time_s) {
   const Sway sway(seed, time_s);
   Vector6d tremor;
   for (int i = 0; i < 6; ++i) {
     tremor[i] =
         (i < 3 ? kTremor_rad : kTremor_m) * sway(kTremorChannel + i, kTremorPeriod_s * (1.0 + 0.2 * i));
   }
-  return lookAt(path(sway)) * poseFromTwist(tremor);
+  return lookAt(path(Sway(seed, speed.walk * time_s), Sway(seed, speed.look * time_s))) *
+         poseFromTwist(tremor);
+}
+
+Rates ratesAt(const GazePath& path, unsigned seed, double time_s) {
+  constexpr double kStep_s = 0.001;
+  const auto poseAt = [&](double at_s) { return lookAt(path(Sway(seed, at_s), Sway(seed, at_s))); };
+  const Pose motion = poseAt(time_s).inverse() * poseAt(time_s + kStep_s);
+  return {motion.translation().norm() / kStep_s, rotationAngle(motion) / kStep_s};
 }
 
 }  // namespace depth_fusion

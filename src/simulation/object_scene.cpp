@@ -45,13 +45,13 @@ std::vector<Primitive> tableWithThings() {
 }
 
 // Once around the figure in 14 s, 0.3 to 0.6 m away from it.
-Gaze objectGaze(const Sway& sway) {
-  const double bearing_rad = (25.0 * sway.time_s() + 10.0 * sway(0, 7.0)) * kRadPerDeg;
-  const double radius_m = 0.36 + 0.06 * sway(1, 6.0);
+Gaze objectGaze(const Sway& walk, const Sway& look) {
+  const double bearing_rad = (25.0 * walk.time_s() + 10.0 * walk(0, 7.0)) * kRadPerDeg;
+  const double radius_m = 0.36 + 0.06 * walk(1, 6.0);
   Gaze gaze;
   gaze.eye_W = {radius_m * std::cos(bearing_rad), radius_m * std::sin(bearing_rad),
-                0.27 + 0.07 * sway(2, 5.0)};
-  gaze.target_W = {0.01 * sway(3, 4.0), 0.01 * sway(4, 5.0), 0.07};
+                0.27 + 0.07 * walk(2, 5.0)};
+  gaze.target_W = {0.01 * look(3, 4.0), 0.01 * look(4, 5.0), 0.07};
   return gaze;
 }
 

@@ -81,7 +81,9 @@ class TileRenderer {
     if (hit.primitive == nullptr) return;
     const Vector3d p_W = T_W_D_.translation() + hit.range_m * ray_W;
     const Vector3d normal_W = hit.primitive->normal(p_W);
-    const Vector3d color = shade(textureColor(hit.primitive->material(), p_W), p_W, normal_W);
+    const Material& material = hit.primitive->material();
+    const Vector3d texture = textureColor(material, p_W);
+    const Vector3d color = material.shaded ? shade(texture, p_W, normal_W) : texture;
     view_.depth_m.at<float>(v, u) = static_cast<float>(hit.range_m * ray.z());
     view_.cos_incidence.at<float>(v, u) = static_cast<float>(-normal_W.dot(ray_W));
     view_.color.at<cv::Vec3b>(v, u) =

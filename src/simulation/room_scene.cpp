@@ -136,19 +136,17 @@ void addLooseThings(Solids& solids) {
 }
 
 // Walks about the middle at 0.3 m/s and looks around at 25 deg/s, once around in 14 s.
-Gaze roomGaze(const Sway& sway) {
+Gaze roomGaze(const Sway& walk, const Sway& look) {
   Gaze gaze;
-  gaze.eye_W = {0.8 * sway(0, 13.0), 0.4 * sway(1, 9.0), 1.55 + 0.1 * sway(2, 7.0)};
-  const double yaw_rad = (25.0 * sway.time_s() + 20.0 * sway(3, 8.0)) * kRadPerDeg;
-  const double pitch_rad = (-28.0 + 7.0 * sway(4, 6.0)) * kRadPerDeg;
+  gaze.eye_W = {0.8 * walk(0, 13.0), 0.4 * walk(1, 9.0), 1.55 + 0.1 * walk(2, 7.0)};
+  const double yaw_rad = (25.0 * look.time_s() + 20.0 * look(3, 8.0)) * kRadPerDeg;
+  const double pitch_rad = (-28.0 + 7.0 * look(4, 6.0)) * kRadPerDeg;
   gaze.target_W = gaze.eye_W + Vector3d(std::cos(pitch_rad) * std::cos(yaw_rad),
                                         std::cos(pitch_rad) * std::sin(yaw_rad), std::sin(pitch_rad));
   return gaze;
 }
 
-}  // namespace
-
-SimulatedScene makeRoomScene() {
+Solids furnishedRoom() {
   Solids solids;
   addShell(solids);
   addWallDecoration(solids);
@@ -160,7 +158,25 @@ SimulatedScene makeRoomScene() {
   addShelf(solids);
   addCabinet(solids);
   addLooseThings(solids);
-  return {Scene(std::move(solids)), kinectSensor(), roomGaze};
+  return solids;
+}
+
+SimulatedScene sceneOf(Solids solids) {
+  SimulatedScene scene{Scene(std::move(solids)), kinectSensor(), roomGaze};
+  scene.looks_around = true;
+  return scene;
+}
+
+}  // namespace
+
+SimulatedScene makeRoomScene() { return sceneOf(furnishedRoom()); }
+
+SimulatedScene makeWhiteRoomScene() {
+  Material white{{225, 225, 225}, Pattern::kPlain};
+  white.shaded = false;
+  Solids solids = furnishedRoom();
+  for (Primitive& solid : solids) solid.paint(white);
+  return sceneOf(std::move(solids));
 }
 
 }  // namespace depth_fusion

@@ -6,6 +6,10 @@
 namespace depth_fusion {
 
 SimulatedScene makeRoomScene();
+SimulatedScene makeWhiteRoomScene();
 SimulatedScene makeObjectScene();
+SimulatedScene makeWallScene();
+SimulatedScene makeFloorWallScene();
+SimulatedScene makeCylinderScene();
 
 }  // namespace depth_fusion

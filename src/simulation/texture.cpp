@@ -1,4 +1,5 @@
 // Procedural textures, made of hashed lattice values.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -51,6 +52,22 @@ double wood(const Vector3d& p) {
   return 0.7 * std::sin(9.0 * smoothNoise(along_grain)) + 0.4 * smoothNoise(6.0 * p);
 }
 
+// Spots of every size, each octave with steep sides and turned against the last. The finer ones are the
+// stronger, so that small patches differ as much as large ones.
+double mottle(Vector3d p) {
+  static const Eigen::Matrix3d kTurn =
+      Eigen::AngleAxisd(0.7, Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+  constexpr double kSteepness = 4.0;
+  double value = 0.0, amplitude = 0.3;
+  for (int octave = 0; octave < 5; ++octave) {
+    p = kTurn * p + Vector3d::Constant(17.3);
+    value += amplitude * std::clamp(kSteepness * smoothNoise(p), -1.0, 1.0);
+    p *= 2.03;
+    amplitude *= 1.1;
+  }
+  return value;
+}
+
 // The pattern's brightness about 0, mostly within [-1, 1].
 double brightness(Pattern pattern, const Vector3d& p) {
   switch (pattern) {
@@ -62,6 +79,8 @@ double brightness(Pattern pattern, const Vector3d& p) {
       return tiles(p);
     case Pattern::kWood:
       return wood(p);
+    case Pattern::kMottle:
+      return mottle(p);
   }
   return 0.0;
 }

@@ -16,7 +16,8 @@ TsdfFusion::Kernels::Kernels(ComputeContext& compute, const MapParameters& map)
 void TsdfFusion::Kernels::requestBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& requests,
                                         DeviceBuffer& count, const Pose& T_W_D, const SelectionArgs& args) {
   const CameraIntrinsics& camera = frame.levels[0].camera;
-  request_.run2d(camera.width / args.stride_px, camera.height / args.stride_px, frame.raw_depth, map.offsets(),
+  const auto samples = [&](int pixels) { return (pixels + args.stride_px - 1) / args.stride_px; };
+  request_.run2d(samples(camera.width), samples(camera.height), frame.raw_depth, map.offsets(),
                  requests, count, toArgs(camera), toArgs(T_W_D), gridArgs(map), args);
 }
 

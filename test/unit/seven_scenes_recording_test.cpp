@@ -3,6 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "depth_fusion/recording/recording.h"
+#include "depth_fusion/recording/trajectory_file.h"
 #include "recording/text_file.h"
 #include "support/expect_error.h"
 #include "support/real_data.h"
@@ -48,6 +49,15 @@ TEST(SevenScenesRecording, reads_frames_in_order) {
   EXPECT_TRUE(second->color.empty());
   EXPECT_FALSE(second->T_W_D.has_value());
   EXPECT_FALSE(recording->next().has_value());
+}
+
+TEST(SevenScenesRecording, poses_are_read_without_the_images) {
+  const TemporaryFolder folder;
+  makeFolder(folder);
+  const Trajectory poses = readPoses(folder.path());
+  ASSERT_EQ(poses.size(), 1u);
+  EXPECT_DOUBLE_EQ(poses[0].stamp_s, 2.0 / 30.0);
+  EXPECT_TRUE(poses[0].T_W_D.isApprox(*openFolder(folder.path(), {})->next()->T_W_D, 1e-12));
 }
 
 TEST(SevenScenesRecording, reads_poses_as_camera_to_world) {

@@ -20,6 +20,8 @@ struct ModelView {
 
 class ModelViewRenderer {
  public:
+  class Kernels;  // typed launches, private to the library and its tests
+
   ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera);
   ~ModelViewRenderer();
 
@@ -27,8 +29,6 @@ class ModelViewRenderer {
   const ModelView& render(const Pose& T_W_D, float min_range_m, float max_range_m, StageTimers& timers);
 
  private:
-  class Kernels;
-
   ComputeContext& compute_;
   BlockSparseMap& map_;
   ModelView view_;

@@ -26,7 +26,8 @@ struct FrameResult {
   FusionResult fusion;  // all zero if the frame was not fused
 };
 
-// Tracks and fuses frame by frame. W is the first frame's camera frame, or that of the given poses.
+// Tracks and fuses frame by frame. W is the first fused frame's camera frame, or that of the given
+// poses.
 class ReconstructionPipeline {
  public:
   ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
@@ -35,7 +36,7 @@ class ReconstructionPipeline {
   // A lost frame changes nothing in the map; the next one is tried against the same view.
   FrameResult processFrame(const RgbdFrame& frame);
 
-  // The same with a pose from elsewhere in place of tracking.
+  // The same with a pose from elsewhere in place of tracking; lost only if there is no depth.
   FrameResult processFrame(const RgbdFrame& frame, const Pose& T_W_D);
 
   BlockSparseMap& map() { return map_; }
@@ -44,7 +45,8 @@ class ReconstructionPipeline {
 
  private:
   const DepthFrame& preprocess(const RgbdFrame& frame);
-  TrackingResult track(const DepthFrame& depth);
+  // The first pose, if the frame has enough depth for the next one to be tracked against.
+  TrackingResult begin(const RgbdFrame& frame) const;
   FusionResult fuse(const DepthFrame& depth, const Pose& T_W_D);
 
   ComputeContext& compute_;

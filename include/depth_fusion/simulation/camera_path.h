@@ -24,12 +24,28 @@ class Sway {
 struct Gaze {
   Eigen::Vector3d eye_W;
   Eigen::Vector3d target_W;  // on the optical axis
+  double roll_rad = 0.0;     // about the optical axis; 0: upright
 };
 
-// Where the camera is and what it looks at, at a time.
-using GazePath = std::function<Gaze(const Sway&)>;
+// Where the camera is and what it looks at. Walking and looking around have a time each, so that either can
+// be sped up alone.
+using GazePath = std::function<Gaze(const Sway& walk, const Sway& look)>;
 
-// The pose of a depth camera on the path, upright but for a slight tremor of the hand.
-Pose handHeldPose(const GazePath& path, unsigned seed, double time_s);
+// Times the path's own.
+struct HandSpeed {
+  double walk = 1.0;
+  double look = 1.0;
+};
+
+// The pose of a depth camera on the path, with a slight tremor of the hand, which speed leaves as it is.
+Pose handHeldPose(const GazePath& path, unsigned seed, const HandSpeed& speed, double time_s);
+
+struct Rates {
+  double linear_m_s = 0.0;
+  double turn_rad_s = 0.0;
+};
+
+// How fast the camera moves on the path at its own speed, without tremor.
+Rates ratesAt(const GazePath& path, unsigned seed, double time_s);
 
 }  // namespace depth_fusion

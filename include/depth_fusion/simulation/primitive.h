@@ -13,6 +13,7 @@ enum class Pattern {
   kSpeckles,  // soft spots of several sizes
   kTiles,     // cells of random brightness: many corners
   kWood,      // grain along x
+  kMottle,    // spots of every size down to scale / 16, no two places alike: corners everywhere
 };
 
 struct Material {
@@ -20,6 +21,7 @@ struct Material {
   Pattern pattern = Pattern::kPlain;
   double scale_m = 0.1;   // size of the pattern's largest feature
   double contrast = 0.5;  // 0: plain; 1: from black to twice the mean
+  bool shaded = true;     // false: as bright on every side
 };
 
 // Colour at a point (B, G, R in 0..255); the texture fills space, a surface cuts through it.
@@ -51,6 +53,7 @@ class Primitive {
                                  double max_range_m) const;
 
   const Material& material() const { return material_; }
+  void paint(const Material& material) { material_ = material; }
   Eigen::Vector3d centre_W() const { return T_W_S_.translation(); }
   // Of the sphere about centre_W() that holds the solid; infinite for rooms and planes.
   double boundingRadius() const;

@@ -15,6 +15,7 @@ struct SimulatedScene {
   Scene surface;
   SensorModel sensor;
   GazePath path;
+  bool looks_around = false;  // the camera turns on its own account, not only as it walks
 };
 
 struct SceneEntry {

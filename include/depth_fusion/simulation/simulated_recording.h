@@ -13,6 +13,9 @@ struct SimulationOptions {
   unsigned seed = 1;
   double fps = 30.0;
   double speed = 1.0;  // times the scene's own
+  // Of the recording's fastest moment, tremor aside, in place of speed; 0: as speed says.
+  double linear_speed_m_s = 0.0;
+  double turn_rate_deg_s = 0.0;
   CameraIntrinsics intrinsics{640, 480, 525.0, 525.0, 319.5, 239.5};
 };
 
@@ -32,6 +35,7 @@ class SimulatedRecording : public Recording {
  private:
   SimulationOptions options_;
   SimulatedScene scene_;
+  HandSpeed hand_speed_;
   int next_frame_ = 0;
 };
 

@@ -27,15 +27,16 @@ struct FusionResult {
 
 class TsdfFusion {
  public:
+  class Kernels;  // typed launches, private to the library and its tests
+
   TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const FusionParameters& parameters);
   ~TsdfFusion();
 
-  // Fuses the raw depth, seen from T_W_D, into the map; allocates the blocks it needs and releases those left empty.
+  // Fuses the filtered depth, seen from T_W_D, into the map; allocates the blocks it needs and releases those left
+  // empty.
   FusionResult integrate(const DepthFrame& frame, const Pose& T_W_D, StageTimers& timers);
 
  private:
-  class Kernels;
-
   void allocateBlocks(const DepthFrame& frame, const Pose& T_W_D, FusionResult& result);
 
   ComputeContext& compute_;

@@ -2,10 +2,9 @@
 
 #include <sys/resource.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "depth_fusion/common/error.h"
+#include "recording/text_file.h"
 
 namespace depth_fusion {
 namespace {
@@ -53,10 +52,7 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
         {"pool_bytes", usage.pool_bytes}}},
       {"peak_rss_bytes", peakRssBytes()},
       {"tracking_peak_rss_bytes", tracking_peak_rss_bytes}};
-  std::ofstream file(path);
-  file << report.dump(2) << std::endl;
-  file.close();
-  check(!file.fail(), path + " cannot be written completely; is the disk full?");
+  writeText(path, report.dump(2) + '\n');
 }
 
 }  // namespace depth_fusion

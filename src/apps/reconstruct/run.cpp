@@ -34,6 +34,8 @@ class Run {
   void fuseFrame(const RgbdFrame& frame);
   void noteResult(const RgbdFrame& frame, const FrameResult& result);
   void showProgress(bool last);
+  // 0 before the first frame.
+  double medianFrame_ms() const;
   void writeResults();
   void writeMesh(const std::string& path);
   // Does one thing of many that should all be tried; a failure is said and remembered.
@@ -56,16 +58,24 @@ Run::Run(const RunOptions& options) : options_(options), compute_(options.device
   std::cout << "device: " << compute_.selfTestReport() << std::endl;
   recording_ = openRecording(options.input, options.recording);
   std::cout << "input: " << recording_->description() << std::endl;
-  if (!options.trajectory_file.empty()) poses_ = readTrajectory(options.trajectory_file);
+  if (!options.trajectory_file.empty()) poses_ = readPoses(options.trajectory_file);
   std::error_code error;
   std::filesystem::create_directories(options.output, error);
   check(!error && access(options.output.c_str(), W_OK) == 0,
-        "the output folder " + options.output + " cannot be written" + (error ? ": " + error.message() : ""));
+        "the output folder " + options.output + " cannot be written" +
+            (error ? " (" + error.message() + ")" : "") + "; choose another with --output");
 }
 
 int Run::execute() {
-  fuseRecording();
+  try {
+    fuseRecording();
+  } catch (const std::exception& error) {
+    if (counts_.tracked == 0) throw;
+    complain(std::string(error.what()) + "; written is what was fused before");
+  }
   check(pipeline_ != nullptr, options_.input + ": no frame could be read");
+  if (counts_.tracked == 0)
+    complain("no frame of " + options_.input + " was fused; the last one is " + status_);
   writeResults();
   return failed_ ? 1 : 0;
 }
@@ -129,11 +139,17 @@ void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
 void Run::showProgress(bool last) {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   if (!terminal && last == (counts_.read % 50 == 0)) return;
-  const double frame_ms = percentile(pipeline_->timers().samplesMs().at("frame"), 0.5);
+  const double frame_ms = medianFrame_ms();
   std::printf("%sframe %zu/%zu  %.1f ms (%.0f fps)  %zu blocks  %zu lost  %-30s%s", terminal ? "\r" : "",
-              counts_.read, recording_->frameCount(), frame_ms, 1000.0 / frame_ms, pipeline_->map().usage().blocks,
-              counts_.lost, status_.c_str(), terminal && !last ? "" : "\n");
+              counts_.read, recording_->frameCount(), frame_ms, frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0,
+              pipeline_->map().usage().blocks, counts_.lost, status_.c_str(), terminal && !last ? "" : "\n");
   std::fflush(stdout);
+}
+
+double Run::medianFrame_ms() const {
+  const auto& samples_ms = pipeline_->timers().samplesMs();
+  const auto frame = samples_ms.find("frame");
+  return frame == samples_ms.end() ? 0.0 : percentile(frame->second, 0.5);
 }
 
 void Run::writeResults() {

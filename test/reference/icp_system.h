@@ -1,0 +1,90 @@
+// The system of kernels/icp_tracking/accumulate_system.cl, plainly: pixel by pixel, in double, the Jacobian
+// by central differences of the residual.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "depth_fusion/geometry/camera_intrinsics.h"
+#include "icp_tracking/icp_system.h"
+#include "reference/depth_preprocessing.h"
+
+namespace depth_fusion::reference {
+
+struct OrientedDepth {
+  CameraIntrinsics camera;
+  cv::Mat depth, normals;  // CV_32FC1, CV_32FC3
+
+  Eigen::Vector3d point(int x, int y) const {
+    const double z = depth.at<float>(y, x);
+    return {(x - camera.cx) / camera.fx * z, (y - camera.cy) / camera.fy * z, z};
+  }
+  Eigen::Vector3d normal(int x, int y) const {
+    const cv::Vec3f n = normals.at<cv::Vec3f>(y, x);
+    return {n[0], n[1], n[2]};
+  }
+  bool has(int x, int y) const {
+    return depth.at<float>(y, x) > 0.0f && normals.at<cv::Vec3f>(y, x)[2] != 0.0f;
+  }
+};
+
+class IcpReference {
+ public:
+  IcpReference(const OrientedDepth& model, const Pose& T_M_D, double max_distance_m, double min_normal_cosine)
+      : model_(model), T_M_D_(T_M_D), max_distance_m_(max_distance_m), min_normal_cosine_(min_normal_cosine) {
+    for (int i = 0; i < 6; ++i) {
+      forward_[i] = poseFromTwist(kStep * Vector6d::Unit(i));
+      backward_[i] = poseFromTwist(-kStep * Vector6d::Unit(i));
+    }
+  }
+
+  IcpSystem accumulate(const OrientedDepth& source) {
+    for (int y = 0; y < source.camera.height; ++y) {
+      for (int x = 0; x < source.camera.width; ++x) {
+        if (!source.has(x, y)) continue;
+        ++system_.source_points;
+        addPoint(source.point(x, y), source.normal(x, y));
+      }
+    }
+    return system_;
+  }
+
+ private:
+  static constexpr double kStep = 1e-4;
+
+  void addPoint(const Eigen::Vector3d& p_D, const Eigen::Vector3d& normal_D) {
+    const Eigen::Vector3d p = T_M_D_ * p_D;
+    if (p.z() <= 0.0) return;
+    const double u = std::floor(model_.camera.fx * p.x() / p.z() + model_.camera.cx + 0.5);
+    const double v = std::floor(model_.camera.fy * p.y() / p.z() + model_.camera.cy + 0.5);
+    if (u < 0.0 || v < 0.0 || u >= model_.camera.width || v >= model_.camera.height) return;
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    if (!model_.has(x, y)) return;
+    const Eigen::Vector3d q = model_.point(x, y);
+    const Eigen::Vector3d n = model_.normal(x, y);
+    if ((p - q).norm() >= max_distance_m_ || n.dot(T_M_D_.linear() * normal_D) <= min_normal_cosine_) return;
+    addMatch(p, q, n, std::pow(SENSOR_SIGMA_A / sensorSigma(p_D.z()), 2));
+  }
+
+  void addMatch(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& n, double weight) {
+    const auto residual = [&](const Pose& motion) { return n.dot(motion * p - q); };
+    const double r = residual(Pose::Identity());
+    Vector6d jacobian;
+    for (int i = 0; i < 6; ++i)
+      jacobian[i] = (residual(forward_[i]) - residual(backward_[i])) / (2.0 * kStep);
+    system_.hessian += weight * jacobian * jacobian.transpose();
+    system_.gradient += weight * r * jacobian;
+    system_.squared_residuals += weight * r * r;
+    ++system_.inliers;
+  }
+
+  const OrientedDepth& model_;
+  Pose T_M_D_;
+  double max_distance_m_, min_normal_cosine_;
+  std::array<Pose, 6> forward_, backward_;
+  IcpSystem system_;
+};
+
+}  // namespace depth_fusion::reference

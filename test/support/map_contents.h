@@ -1,0 +1,41 @@
+// What a map holds, on the host.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "depth_fusion/map/block_sparse_map.h"
+
+namespace depth_fusion {
+
+using BlockKey = std::array<int, 3>;  // z, y, x
+
+inline BlockKey keyOf(const BlockSparseMap::BlockIndex& block) { return {block.z(), block.y(), block.x()}; }
+inline BlockSparseMap::BlockIndex indexOf(const BlockKey& key) { return {key[2], key[1], key[0]}; }
+
+// Distances and weights of the M^3 voxels of a block.
+struct BlockContent {
+  std::vector<int8_t> distances;
+  std::vector<uint8_t> weights;
+  bool operator==(const BlockContent& other) const {
+    return distances == other.distances && weights == other.weights;
+  }
+};
+
+using MapContent = std::map<BlockKey, BlockContent>;
+
+inline MapContent readMap(BlockSparseMap& map) {
+  const size_t m = map.parameters().block_size;
+  const size_t voxels = m * m * m;
+  const std::vector<uint8_t> bytes = map.voxels().read<uint8_t>(2 * voxels * map.slotBound());
+  MapContent content;
+  for (const BlockSparseMap::Block& block : map.blocks()) {
+    const auto begin = bytes.begin() + 2 * voxels * block.slot;
+    content[keyOf(block.index)] = {{begin, begin + voxels}, {begin + voxels, begin + 2 * voxels}};
+  }
+  return content;
+}
+
+}  // namespace depth_fusion

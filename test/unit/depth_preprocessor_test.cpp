@@ -1,0 +1,195 @@
+#include "depth_fusion/preprocessing/depth_preprocessor.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "depth_fusion/compute/device_image.h"
+#include "geometry/kernel_args.h"
+#include "reference/depth_preprocessing.h"
+#include "support/expect_error.h"
+#include "support/test_compute.h"
+#include "support/test_frames.h"
+
+namespace depth_fusion {
+namespace {
+
+CameraIntrinsics cameraOfSize(int width, int height) {
+  return {width, height, 0.8 * width, 0.82 * width, 0.5 * width - 0.7, 0.5 * height + 0.3};
+}
+
+RgbdFrame frameOf(const cv::Mat& depth, double unit_m = 1.0) {
+  RgbdFrame frame;
+  frame.depth = depth;
+  frame.depth_unit_m = unit_m;
+  return frame;
+}
+
+// Noisy surfaces at two depths with holes, out-of-range pixels among them.
+cv::Mat busyDepth(const CameraIntrinsics& camera) {
+  cv::Mat depth(camera.height, camera.width, CV_32FC1);
+  cv::RNG random(3);
+  reference::forEachPixel<float>(depth, [&](int x, int y, float& pixel) {
+    const bool near = (x / 23 + y / 17) % 3 == 0;
+    pixel = static_cast<float>((near ? 1.1 : 1.6) + 0.002 * x + 0.001 * y + random.gaussian(0.003));
+    if (random.uniform(0, 25) == 0) pixel = random.uniform(0, 2) == 0 ? 0.0f : 7.0f;
+  });
+  return depth;
+}
+
+double largestDifference(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF); }
+
+// Elements of the image's buffer that are not 0, beside its pixels.
+long nonzeroPadding(const DeviceBuffer& image, const CameraIntrinsics& camera, int planes) {
+  const std::vector<float> elements = image.read<float>(planes * planeElements(camera));
+  const long nonzero = elements.size() - std::count(elements.begin(), elements.end(), 0.0f);
+  return nonzero - cv::countNonZero(readImage(image, camera, planes).reshape(1));
+}
+
+TEST(DepthPreprocessor, MetresOfIntegers) {
+  const PreprocessingParameters parameters;
+  for (const auto& [width, height] : {std::pair{100, 75}, {33, 31}, {640, 480}}) {
+    const CameraIntrinsics camera = cameraOfSize(width, height);
+    cv::Mat input(height, width, CV_16UC1);
+    cv::RNG(5).fill(input, cv::RNG::UNIFORM, 0, 65536);
+    input.at<uint16_t>(0, 0) = 65535;
+    DepthPreprocessor preprocessor(compute(), parameters, camera);
+    const DepthFrame& frame = preprocessor.process(frameOf(input, 0.0002));
+    const RangeArgs range{0.0002f, parameters.min_range_m, parameters.max_range_m};
+    EXPECT_TRUE(sameImage(readImage(frame.raw_depth, camera, 1), reference::depthToMetres(input, range)));
+    EXPECT_EQ(nonzeroPadding(frame.raw_depth, camera, 1), 0);
+  }
+}
+
+TEST(DepthPreprocessor, NoDepthWhereThereIsNoneOrOutOfRange) {
+  const CameraIntrinsics camera = cameraOfSize(40, 30);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  const std::vector<std::pair<float, float>> cases = {
+      {0.0f, 0.0f},    {nan, 0.0f},  {infinity, 0.0f}, {-infinity, 0.0f}, {-1.0f, 0.0f}, {0.4f, 0.0f},
+      {1000.0f, 0.0f}, {0.5f, 0.5f}, {4.0f, 4.0f},     {4.0001f, 0.0f},   {2.0f, 2.0f},  {0.49999f, 0.0f}};
+  cv::Mat input = cv::Mat::zeros(30, 40, CV_32FC1);
+  for (size_t i = 0; i < cases.size(); ++i) input.at<float>(7, 25 + static_cast<int>(i)) = cases[i].first;
+  PreprocessingParameters parameters;
+  parameters.min_range_m = 0.5f;
+  parameters.max_range_m = 4.0f;
+  DepthPreprocessor preprocessor(compute(), parameters, camera);
+  const cv::Mat depth = readImage(preprocessor.process(frameOf(input)).raw_depth, camera, 1);
+  for (size_t i = 0; i < cases.size(); ++i) {
+    EXPECT_EQ(depth.at<float>(7, 25 + static_cast<int>(i)), cases[i].second) << cases[i].first;
+  }
+  EXPECT_EQ(cv::countNonZero(depth), 3);
+}
+
+TEST(DepthPreprocessor, EveryStepEqualsTheReference) {
+  PreprocessingParameters parameters;
+  for (const auto& [width, height] : {std::pair{100, 75}, {49, 38}, {640, 480}}) {
+    const CameraIntrinsics camera = cameraOfSize(width, height);
+    DepthPreprocessor preprocessor(compute(), parameters, camera);
+    const DepthFrame& frame = preprocessor.process(frameOf(busyDepth(camera)));
+    const cv::Mat raw = readImage(frame.raw_depth, camera, 1);
+    EXPECT_EQ(frame.max_tiles.read<float>(reference::maxTiles(raw).size()), reference::maxTiles(raw));
+
+    cv::Mat expected =
+        reference::filterBilateral(raw, parameters.bilateral_sigma_px, parameters.bilateral_cutoff_sigmas);
+    ASSERT_EQ(frame.levels.size(), 3u);
+    for (const DepthLevel& level : frame.levels) {
+      const cv::Mat depth = readImage(level.depth, level.camera, 1);
+      EXPECT_LT(largestDifference(depth, expected), 2e-6) << level.camera.width;
+      EXPECT_EQ(nonzeroPadding(level.depth, level.camera, 1), 0);
+      const cv::Mat normals = reference::computeNormals(depth, level.camera, parameters.max_relative_step);
+      EXPECT_LT(largestDifference(readImage(level.normals, level.camera, 3), normals), 1e-4);
+      EXPECT_EQ(nonzeroPadding(level.normals, level.camera, 3), 0);
+      expected = reference::halveDepth(depth, parameters.bilateral_cutoff_sigmas);
+    }
+  }
+}
+
+TEST(DepthPreprocessor, LevelsAreHalvedCameras) {
+  const CameraIntrinsics camera = cameraOfSize(101, 75);
+  DepthPreprocessor preprocessor(compute(), {}, camera);
+  const DepthFrame& frame = preprocessor.process(frameOf(busyDepth(camera)));
+  expectSameIntrinsics(frame.levels[0].camera, camera);
+  expectSameIntrinsics(frame.levels[1].camera, halved(camera));
+  expectSameIntrinsics(frame.levels[2].camera, halved(halved(camera)));
+  EXPECT_EQ(frame.levels[2].camera.width, 25);
+  EXPECT_EQ(frame.levels[2].camera.height, 18);
+}
+
+// The depth of the plane normal . p = offset.
+cv::Mat planeDepth(const CameraIntrinsics& camera, const cv::Vec3d& normal, double offset_m) {
+  cv::Mat depth(camera.height, camera.width, CV_32FC1);
+  reference::forEachPixel<float>(depth, [&](int x, int y, float& pixel) {
+    const cv::Vec3d ray((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0);
+    pixel = static_cast<float>(offset_m / normal.dot(ray));
+  });
+  return depth;
+}
+
+void expectNormals(cv::Mat normals, const cv::Vec3d& expected, double tolerance) {
+  reference::forEachPixel<cv::Vec3f>(normals, [&](int x, int y, const cv::Vec3f& pixel) {
+    const int to_border = std::min({x, y, normals.cols - 1 - x, normals.rows - 1 - y});
+    const double error = cv::norm(cv::Vec3d(pixel), to_border < 2 ? cv::Vec3d() : expected);
+    // near the border, the filter has neighbours on one side only
+    ASSERT_LT(error, to_border < 6 ? 20.0 * tolerance : tolerance) << x << " " << y;
+  });
+}
+
+TEST(DepthPreprocessor, NormalsOfATiltedPlane) {
+  const CameraIntrinsics camera = cameraOfSize(161, 121);
+  for (const cv::Vec3d& direction : {cv::Vec3d(0, 0, -1), {0.3, -0.2, -1}, {-0.4, 0.1, -1}}) {
+    const cv::Vec3d normal = direction / cv::norm(direction);
+    const cv::Mat depth = planeDepth(camera, normal, -1.5);
+    DepthPreprocessor preprocessor(compute(), {}, camera);
+    const DepthFrame& frame = preprocessor.process(frameOf(depth));
+    double tolerance = 0.005;  // halving bends slanted surfaces a little
+    for (const DepthLevel& level : frame.levels) {
+      expectNormals(readImage(level.normals, level.camera, 3), normal, tolerance);
+      tolerance *= 2.0;
+    }
+    expectNormals(reference::computeNormals(depth, camera, 0.05), normal, 1e-4);
+  }
+}
+
+TEST(DepthPreprocessor, FilterSmoothesNoiseAndKeepsEdges) {
+  const CameraIntrinsics camera = cameraOfSize(120, 90);
+  cv::Mat depth(camera.height, camera.width, CV_32FC1);
+  cv::RNG random(11);
+  reference::forEachPixel<float>(depth, [&](int x, int, float& pixel) {
+    pixel = static_cast<float>((x < 60 ? 1.0 : 1.3) + random.gaussian(0.001));
+  });
+  DepthPreprocessor preprocessor(compute(), {}, camera);
+  const cv::Mat filtered = readImage(preprocessor.process(frameOf(depth)).levels[0].depth, camera, 1);
+  for (const auto& [columns, truth_m] : {std::pair{cv::Range(0, 60), 1.0}, {cv::Range(60, 120), 1.3}}) {
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(filtered.colRange(columns), mean, deviation);
+    EXPECT_NEAR(mean[0], truth_m, 1e-4);
+    EXPECT_LT(deviation[0], 0.0005);
+  }
+}
+
+TEST(DepthPreprocessor, ReadsAPartOfALargerImage) {
+  const CameraIntrinsics camera = cameraOfSize(50, 40);
+  const cv::Mat larger = busyDepth(cameraOfSize(90, 70));
+  const cv::Mat part = larger(cv::Rect(13, 9, 50, 40));
+  DepthPreprocessor preprocessor(compute(), {}, camera);
+  const cv::Mat of_part = readImage(preprocessor.process(frameOf(part)).levels[0].depth, camera, 1);
+  const cv::Mat of_copy = readImage(preprocessor.process(frameOf(part.clone())).levels[0].depth, camera, 1);
+  EXPECT_TRUE(sameImage(of_part, of_copy));
+}
+
+TEST(DepthPreprocessor, RefusesWhatItCannotUse) {
+  const CameraIntrinsics camera = cameraOfSize(50, 40);
+  DepthPreprocessor preprocessor(compute(), {}, camera);
+  expectError([&] { preprocessor.process(frameOf(cv::Mat::zeros(40, 50, CV_8UC1))); }, {"16-bit", "float"});
+  expectError([&] { preprocessor.process(frameOf(cv::Mat())); }, {"depth image"});
+  expectError([&] { preprocessor.process(frameOf(cv::Mat::zeros(40, 51, CV_16UC1))); }, {"51x40", "50x40"});
+  expectError([&] { DepthPreprocessor(compute(), {}, CameraIntrinsics()); }, {"--intrinsics"});
+  expectError([&] { DepthPreprocessor(compute(), {}, cameraOfSize(10, 8)); }, {"10x8", "too small"});
+  PreprocessingParameters parameters;
+  parameters.min_range_m = parameters.max_range_m;
+  expectError([&] { DepthPreprocessor(compute(), parameters, camera); }, {"min_range_m", "max_range_m"});
+}
+
+}  // namespace
+}  // namespace depth_fusion

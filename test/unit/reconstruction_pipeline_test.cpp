@@ -1,0 +1,159 @@
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "depth_fusion/simulation/simulated_recording.h"
+#include "support/map_contents.h"
+#include "support/test_compute.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr CameraIntrinsics kCamera{160, 120, 131.25, 131.25, 79.5, 59.5};
+constexpr int kFrames = 12;
+
+PipelineParameters pipelineParameters() {
+  PipelineParameters parameters;
+  parameters.map.voxel_size_m = 0.02f;
+  parameters.map.truncation_m = 0.08f;
+  parameters.map.blocks_per_axis = 64;
+  parameters.map.pool_mib = 32;
+  return parameters;
+}
+
+// The room seen by a slowly moving camera.
+const std::vector<RgbdFrame>& roomFrames() {
+  static const std::vector<RgbdFrame> frames = [] {
+    SimulationOptions options;
+    options.frames = kFrames;
+    options.intrinsics = kCamera;
+    SimulatedRecording recording(options);
+    std::vector<RgbdFrame> all;
+    while (std::optional<RgbdFrame> frame = recording.next()) all.push_back(std::move(*frame));
+    return all;
+  }();
+  return frames;
+}
+
+RgbdFrame frameWithoutDepth() {
+  RgbdFrame frame = roomFrames()[0];
+  frame.depth = frame.depth.clone();
+  frame.depth.setTo(0.0);
+  return frame;
+}
+
+// The pose of frame i in the camera frame of the first one.
+Pose motionTo(int i) { return roomFrames()[0].T_W_D->inverse() * *roomFrames()[i].T_W_D; }
+
+bool isTracking(const FrameResult& result) { return result.tracking.status == TrackingStatus::kTracking; }
+
+void expectLost(const FrameResult& result, const std::string& reason) {
+  EXPECT_EQ(result.tracking.status, TrackingStatus::kLost);
+  EXPECT_NE(result.tracking.reason.find(reason), std::string::npos) << result.tracking.reason;
+  EXPECT_EQ(result.fusion.blocks_updated, 0u);
+}
+
+TriangleMesh meshOf(ReconstructionPipeline& pipeline) {
+  TriangleMesh mesh;
+  exportSurfaceMesh(compute(), pipeline.map(), mesh);
+  return mesh;
+}
+
+bool sameBytes(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.triangles == b.triangles && a.vertices.size() == b.vertices.size() &&
+         std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(MeshVertex)) == 0;
+}
+
+TEST(ReconstructionPipeline, TracksAndFusesTheRoom) {
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  for (int i = 0; i < kFrames; ++i) {
+    const FrameResult result = pipeline.processFrame(roomFrames()[i]);
+    ASSERT_TRUE(isTracking(result)) << i << " " << result.tracking.reason;
+    EXPECT_GT(result.fusion.blocks_updated, 0u);
+    const Pose error = motionTo(i).inverse() * result.tracking.T_W_D;
+    EXPECT_LT(error.translation().norm(), 0.015) << i;
+    EXPECT_LT(rotationAngle(error), 0.01) << i;
+  }
+  EXPECT_GT(meshOf(pipeline).triangles.size(), 5000u);
+}
+
+TEST(ReconstructionPipeline, StartsWithTheFirstFrameThatHasDepth) {
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  for (int i = 0; i < 3; ++i)
+    expectLost(pipeline.processFrame(frameWithoutDepth()), "only 0 points with depth in range");
+  EXPECT_EQ(pipeline.map().usage().blocks, 0u);
+  const FrameResult first = pipeline.processFrame(roomFrames()[0]);
+  ASSERT_TRUE(isTracking(first));
+  EXPECT_TRUE(first.tracking.T_W_D.isApprox(Pose::Identity()));
+  const FrameResult second = pipeline.processFrame(roomFrames()[1]);
+  EXPECT_TRUE(isTracking(second)) << second.tracking.reason;
+}
+
+TEST(ReconstructionPipeline, LostFrameChangesNothingAndTheNextIsTracked) {
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[i])));
+  const MapContent before = readMap(pipeline.map());
+  ASSERT_GT(before.size(), 100u);
+
+  expectLost(pipeline.processFrame(frameWithoutDepth()), "no points with depth");
+  EXPECT_TRUE(readMap(pipeline.map()) == before);
+  RgbdFrame turned = roomFrames()[3];
+  turned.depth = turned.depth.clone();
+  cv::flip(roomFrames()[3].depth, turned.depth, -1);
+  expectLost(pipeline.processFrame(turned), "");
+  EXPECT_TRUE(readMap(pipeline.map()) == before);
+
+  EXPECT_TRUE(isTracking(pipeline.processFrame(roomFrames()[3])));
+  EXPECT_FALSE(readMap(pipeline.map()) == before);
+}
+
+TEST(ReconstructionPipeline, TheSameFramesGiveTheSameBits) {
+  ReconstructionPipeline a(compute(), pipelineParameters(), kCamera);
+  ReconstructionPipeline b(compute(), pipelineParameters(), kCamera);
+  for (const RgbdFrame& frame : roomFrames()) {
+    const FrameResult result_a = a.processFrame(frame);
+    const FrameResult result_b = b.processFrame(frame);
+    ASSERT_TRUE(result_a.tracking.T_W_D.matrix() == result_b.tracking.T_W_D.matrix());
+    ASSERT_EQ(result_a.fusion.blocks_updated, result_b.fusion.blocks_updated);
+  }
+  EXPECT_TRUE(readMap(a.map()) == readMap(b.map()));
+  EXPECT_TRUE(sameBytes(meshOf(a), meshOf(b)));
+}
+
+TEST(ReconstructionPipeline, FusesWithGivenPoses) {
+  const SimulatedScene scene = makeScene("room");
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  expectLost(pipeline.processFrame(frameWithoutDepth(), *roomFrames()[0].T_W_D), "no depth in range");
+  for (const RgbdFrame& frame : roomFrames()) {
+    const FrameResult result = pipeline.processFrame(frame, *frame.T_W_D);
+    ASSERT_TRUE(isTracking(result));
+    EXPECT_TRUE(result.tracking.T_W_D.matrix() == frame.T_W_D->matrix());
+  }
+  const TriangleMesh mesh = meshOf(pipeline);
+  ASSERT_GT(mesh.vertices.size(), 5000u);
+  double sum_m = 0.0;
+  for (const MeshVertex& vertex : mesh.vertices) {
+    sum_m += std::abs(scene.surface.distance(vertex.position_W.cast<double>()));
+  }
+  EXPECT_LT(sum_m / mesh.vertices.size(), 0.006);
+}
+
+TEST(ReconstructionPipeline, TableNamesEveryStagesParameters) {
+  PipelineParameters parameters;
+  const ParameterTable table = parameters.table();
+  setParameter(table, "map/voxel_size_m", "0.0125");
+  setParameter(table, "tsdf_fusion/max_weight", "17");
+  setParameter(table, "icp_tracking/fine_iterations", "3");
+  setParameter(table, "preprocessing/max_range_m", "2.5");
+  setParameter(table, "surface_mesh/min_weight", "4");
+  EXPECT_EQ(parameters.map.voxel_size_m, 0.0125f);
+  EXPECT_EQ(parameters.tsdf_fusion.max_weight, 17.0f);
+  EXPECT_EQ(parameters.icp_tracking.fine_iterations, 3);
+  EXPECT_EQ(parameters.preprocessing.max_range_m, 2.5f);
+  EXPECT_EQ(parameters.surface_mesh.min_weight, 4);
+}
+
+}  // namespace
+}  // namespace depth_fusion

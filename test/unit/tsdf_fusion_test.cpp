@@ -1,0 +1,260 @@
+#include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
+
+#include <gtest/gtest.h>
+
+#include "support/fusion_views.h"
+
+namespace depth_fusion {
+namespace {
+
+class FusionOfBlockSize : public testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(BlockSizes, FusionOfBlockSize, testing::Values(4, 8, 16, 32));
+
+// How a byte may differ from the reference's number before it was rounded to the one below or above.
+struct RoundingErrors {
+  size_t updated = 0, skipped = 0, wrong = 0;
+  double sum_steps = 0.0, sum_weights = 0.0;
+
+  void add(const Voxel& expected, const Voxel& fused) {
+    ++updated;
+    const double error = fused.steps - expected.steps;
+    const double weight_error = fused.weight - expected.weight;
+    const bool good_steps = fused.known ? std::abs(error) < 1.02 : expected.steps > TSDF_MAX - 0.02;
+    if (!good_steps || std::abs(weight_error) > 1.001) ++wrong;
+    sum_weights += weight_error;
+    if (fused.known) sum_steps += error;
+  }
+};
+
+RoundingErrors compareWithReference(const MapContent& before, const MapContent& after, const View& view,
+                                    const MapParameters& map) {
+  RoundingErrors errors;
+  const Pose T_D_W = view.T_W_D.inverse();
+  const FusionArgs args = fusionArgs();
+  for (const auto& [key, content] : after) {
+    const auto old = before.find(key);
+    for (size_t i = 0; i < content.distances.size(); ++i) {
+      const BlockIndex block = indexOf(key);
+      const Measurement measured =
+          measure(view, T_D_W, map, args, block, voxelOf(block, static_cast<int>(i), map.block_size));
+      const Voxel old_voxel = old == before.end() ? Voxel() : voxelOf(old->second, i);
+      const Voxel fused = voxelOf(content, i);
+      if (measured.ambiguous) {
+        ++errors.skipped;
+      } else if (measured.voxel.known) {
+        errors.add(fuse(old_voxel, measured.voxel, args.max_weight), fused);
+      } else if (fused.known != old_voxel.known || (fused.known && fused.steps != old_voxel.steps)) {
+        ++errors.wrong;
+      }
+    }
+  }
+  return errors;
+}
+
+TEST_P(FusionOfBlockSize, EqualsTheReferenceFrameByFrame) {
+  const MapParameters parameters = mapParameters(GetParam(), 18, 0.16f / GetParam());
+  BlockSparseMap map(compute(), parameters);
+  TsdfFusion fusion(compute(), map, {});
+  MapContent before;
+  for (int frame = 0; frame < 4; ++frame) {
+    const View view = viewOf(bumpyDepth(1.1 + 0.01 * frame), somePose(1.0 - 0.1 * frame));
+    integrate(fusion, view);
+    const MapContent after = readMap(map);
+    const RoundingErrors errors = compareWithReference(before, after, view, parameters);
+    const double updated = static_cast<double>(errors.updated);
+    EXPECT_GT(errors.updated, 5000u);
+    EXPECT_EQ(errors.wrong, 0u) << "of " << errors.updated;
+    EXPECT_LT(errors.skipped, errors.updated / 50);
+    EXPECT_NEAR(errors.sum_steps / updated, 0.0, 0.02) << "rounding is biased";
+    EXPECT_NEAR(errors.sum_weights / updated, 0.0, 0.02) << "rounding of weights is biased";
+    before = after;
+  }
+}
+
+struct Deviation {
+  double mean = 0.0, spread = 0.0;
+};
+
+Deviation deviationOf(const std::vector<double>& values) {
+  cv::Scalar mean, spread;
+  cv::meanStdDev(values, mean, spread);
+  return {mean[0], spread[0]};
+}
+
+struct TracedVoxel {
+  BlockIndex block;
+  int number;
+  Voxel exact, nearest;
+};
+
+// Voxels before and behind a wall at 1 m, some of each block.
+std::vector<TracedVoxel> voxelsToTrace(const BlockSparseMap& map) {
+  const int m = map.parameters().block_size;
+  std::vector<TracedVoxel> voxels;
+  for (const BlockSparseMap::Block& block : map.blocks()) {
+    for (int i = 0; i < m * m * m; i += 13) {
+      if (std::abs(voxelOf(block.index, i, m).z() * map.parameters().voxel_size_m - 1.0) < 0.011) {
+        voxels.push_back({block.index, i, {}, {}});
+      }
+    }
+  }
+  return voxels;
+}
+
+// A wall that stood at 1 m, long enough for all the weights to be at their bound, then moves by less than
+// half a step a frame: 8 bits rounded to the nearest never notice.
+TEST(TsdfFusion, EightBitsConvergeLikeFloats) {
+  const MapParameters parameters = mapParameters(8, 32, 0.01f);
+  BlockSparseMap map(compute(), parameters);
+  TsdfFusion fusion(compute(), map, {});
+  integrate(fusion, viewOf(wallDepth(1.0)));
+  std::vector<TracedVoxel> voxels = voxelsToTrace(map);
+  map.reset(Eigen::Vector3d::Zero());
+  cv::RNG random(4);
+  for (int frame = 0; frame < 450; ++frame) {
+    cv::Mat depth = wallDepth(frame < 80 ? 1.0 : 1.004);
+    reference::forEachPixel<float>(depth, [&](int, int, float& pixel) { pixel += random.gaussian(0.0005); });
+    const View view = viewOf(depth);
+    integrate(fusion, view);
+    for (TracedVoxel& voxel : voxels) {
+      const Voxel measured = measure(view, Pose::Identity(), parameters, fusionArgs(), voxel.block,
+                                     voxelOf(voxel.block, voxel.number, parameters.block_size))
+                                 .voxel;
+      voxel.exact = fuse(voxel.exact, measured, 255.0);
+      voxel.nearest = roundedToNearest(fuse(voxel.nearest, measured, 255.0));
+    }
+  }
+  const MapContent content = readMap(map);
+  std::vector<double> errors, errors_of_nearest;
+  for (const TracedVoxel& voxel : voxels) {
+    const auto block = content.find(keyOf(voxel.block));
+    if (!voxel.exact.known || block == content.end()) continue;
+    const Voxel fused = voxelOf(block->second, voxel.number);
+    ASSERT_TRUE(fused.known);
+    errors.push_back(fused.steps - voxel.exact.steps);
+    errors_of_nearest.push_back(voxel.nearest.steps - voxel.exact.steps);
+  }
+  ASSERT_GT(errors.size(), 500u);
+  EXPECT_NEAR(deviationOf(errors).mean, 0.0, 0.2);
+  EXPECT_LT(deviationOf(errors).spread, 1.5);
+  EXPECT_LT(deviationOf(errors_of_nearest).mean, -8.0) << "the test does not show what dither is for";
+}
+
+void expectDataInEveryBlock(BlockSparseMap& map) {
+  for (const auto& [key, content] : readMap(map)) {
+    const auto& distances = content.distances;
+    ASSERT_TRUE(std::any_of(distances.begin(), distances.end(), [](int8_t d) { return d != TSDF_CHI; }))
+        << indexOf(key).transpose();
+  }
+}
+
+TEST(TsdfFusion, FreeSpaceClearsWhatStoodThere) {
+  BlockSparseMap map(compute(), mapParameters());
+  TsdfFusion fusion(compute(), map, {});
+  for (int i = 0; i < 100; ++i) integrate(fusion, viewOf(wallDepth(1.0)));
+  const size_t before = map.usage().blocks;
+  ASSERT_GT(before, 40u);
+  size_t released = 0;
+  for (int i = 0; i < 100; ++i) released += integrate(fusion, viewOf(wallDepth(2.0))).blocks_released;
+  EXPECT_GE(released, before / 2);
+  for (const auto& [key, content] : readMap(map)) {
+    for (size_t i = 0; i < content.distances.size(); ++i) {
+      const Eigen::Vector3d p = voxelOf(indexOf(key), static_cast<int>(i), 8).cast<double>() * 0.02;
+      const bool well_inside = std::abs(p.x()) < 0.4 * p.z() && std::abs(p.y()) < 0.3 * p.z();
+      if (well_inside && p.z() < 1.9) {
+        ASSERT_EQ(content.distances[i], TSDF_CHI) << p.transpose();
+      }
+    }
+  }
+}
+
+TEST(TsdfFusion, BlocksWithoutDataAreReleased) {
+  BlockSparseMap map(compute(), mapParameters(4));
+  TsdfFusion fusion(compute(), map, {});
+  const FusionResult result = integrate(fusion, viewOf(bumpyDepth(1.5), somePose()));
+  EXPECT_EQ(result.blocks_allocated, result.blocks_requested);
+  EXPECT_EQ(map.usage().blocks, result.blocks_allocated - result.blocks_released);
+  expectDataInEveryBlock(map);
+  std::vector<int> offsets = map.offsets().read<int>(map.offsets().bytes() / sizeof(int));
+  EXPECT_EQ(map.usage().blocks, offsets.size() - std::count(offsets.begin(), offsets.end(), BLOCK_EMPTY));
+}
+
+TEST(TsdfFusion, NoDepthChangesNothing) {
+  BlockSparseMap map(compute(), mapParameters());
+  TsdfFusion fusion(compute(), map, {});
+  integrate(fusion, viewOf(bumpyDepth(1.5)));
+  const MapContent before = readMap(map);
+  const FusionResult result = integrate(fusion, viewOf(wallDepth(0.0)));
+  EXPECT_EQ(result.blocks_requested + result.blocks_updated + result.blocks_released, 0u);
+  EXPECT_TRUE(readMap(map) == before);
+}
+
+TEST(TsdfFusion, FullPoolFusesWhatFitsAndAsksAgain) {
+  MapParameters parameters = mapParameters(8, 96, 0.007f);
+  parameters.pool_mib = 1;
+  BlockSparseMap map(compute(), parameters);
+  TsdfFusion fusion(compute(), map, {});
+  const View view = viewOf(wallDepth(2.2));
+  const FusionResult first = integrate(fusion, view);
+  EXPECT_EQ(first.blocks_allocated, 1024u);
+  EXPECT_GT(first.blocks_requested, first.blocks_allocated);
+  EXPECT_EQ(first.blocks_updated, 1024u);
+  const FusionResult second = integrate(fusion, view);
+  EXPECT_EQ(second.blocks_requested, first.blocks_requested - first.blocks_allocated + first.blocks_released);
+  EXPECT_EQ(second.blocks_allocated, first.blocks_released);
+  expectDataInEveryBlock(map);
+}
+
+// More blocks than one list of requests holds.
+TEST(TsdfFusion, AllocatesAllTheBlocksOfAFineMap) {
+  const CameraIntrinsics camera{320, 240, 262.5, 262.5, 159.5, 119.5};
+  MapParameters parameters = mapParameters(4, 220, 0.005f);
+  parameters.truncation_m = 0.06f;
+  BlockSparseMap map(compute(), parameters);
+  map.reset(Eigen::Vector3d(0.0, 0.0, 3.0));
+  TsdfFusion fusion(compute(), map, {});
+  const View wall{camera, Pose::Identity(), cv::Mat(camera.height, camera.width, CV_32FC1, cv::Scalar(3.0))};
+  const FusionResult first = integrate(fusion, wall);
+  EXPECT_GT(first.blocks_requested, 100000u);
+  EXPECT_EQ(first.blocks_allocated, first.blocks_requested);
+  EXPECT_EQ(integrate(fusion, wall).blocks_requested, first.blocks_released);
+}
+
+TEST(TsdfFusion, WindowMayStandAnywhere) {
+  MapContent expected;
+  for (const Eigen::Vector3d& centre :
+       {Eigen::Vector3d(0, 0, 1), {0.9, 0.5, 1.3}, {-0.7, -0.83, 0.2}, {0.33, -0.61, 1.77}}) {
+    MapParameters parameters = mapParameters(8, 31);
+    BlockSparseMap map(compute(), parameters);
+    map.reset(centre);
+    TsdfFusion fusion(compute(), map, {});
+    for (int i = 0; i < 3; ++i) integrate(fusion, viewOf(bumpyDepth(1.2), somePose(0.5 + 0.1 * i)));
+    const MapContent content = readMap(map);
+    if (expected.empty()) expected = content;
+    ASSERT_GT(content.size(), 100u);
+    EXPECT_TRUE(content == expected) << centre.transpose();
+  }
+}
+
+TEST(TsdfFusion, ZeroCrossingIsTheSurface) {
+  const MapParameters parameters = mapParameters(8, 64, 0.01f);
+  BlockSparseMap map(compute(), parameters);
+  TsdfFusion fusion(compute(), map, {});
+  for (int i = 0; i < 50; ++i) integrate(fusion, viewOf(wallDepth(1.0433)));
+  std::vector<double> errors;
+  for (const auto& [key, content] : readMap(map)) {
+    for (int i = 0; i < 7 * 64; ++i) {  // all but the last layer of each block
+      const int near = content.distances[i], far = content.distances[i + 64];
+      if (near == TSDF_CHI || far == TSDF_CHI || near < 0 || far >= 0) continue;
+      const double z_vox = voxelOf(indexOf(key), i, 8).z() + static_cast<double>(near) / (near - far);
+      errors.push_back(z_vox * parameters.voxel_size_m - 1.0433);
+    }
+  }
+  ASSERT_GT(errors.size(), 1000u);
+  EXPECT_NEAR(deviationOf(errors).mean, 0.0, 2e-5);
+  EXPECT_LT(deviationOf(errors).spread, 5e-4);
+}
+
+}  // namespace
+}  // namespace depth_fusion
