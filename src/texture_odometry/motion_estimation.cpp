@@ -96,7 +96,7 @@ std::optional<MotionEstimate> estimateByRansac(const std::vector<Correspondence>
         solveMotion(model, sample, {}, alignPoints(correspondences, sample), kSampleIterations);
     if (!T_reference_current) continue;
     std::vector<size_t> inliers = inliersOf(model, gate, *T_reference_current);
-    if (best && inliers.size() <= best->inliers.size()) continue;
+    if (inliers.size() <= (best ? best->inliers.size() : kSampleSize)) continue;
     needed = std::min(max_iterations, neededIterations(inliers.size(), correspondences.size()));
     best = MotionEstimate{*T_reference_current, Matrix6d::Zero(), std::move(inliers)};
   }
