@@ -11,9 +11,9 @@
 namespace depth_fusion {
 
 struct TextureOdometryParameters {
-  int levels = 2;
-  int cell_size_px = 32;
-  int features_per_cell = 2;
+  int levels = 3;
+  int cell_size_px = 40;
+  int features_per_cell = 3;
   int corner_threshold = 20;
   int weak_corner_threshold = 7;
   int min_features = 30;
