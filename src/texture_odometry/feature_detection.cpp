@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
 
 #include "texture_odometry/brief.h"
 

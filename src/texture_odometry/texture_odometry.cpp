@@ -1,9 +1,8 @@
 #include "depth_fusion/texture_odometry/texture_odometry.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "depth_fusion/common/error.h"
 #include "texture_odometry/feature_depth.h"
 #include "texture_odometry/feature_detection.h"
 #include "texture_odometry/feature_matching.h"
@@ -46,7 +45,6 @@ std::vector<Correspondence> correspondencesOf(const FrameFeatures& reference, co
   for (const FeatureMatch& match : matches) {
     const Feature& a = reference.features[match.reference];
     const Feature& b = current.features[match.current];
-    if (!a.surface_C && !b.surface_C) continue;
     const Vector2d pixel_a = fullImagePixel(a.pixel, a.level);
     const Vector2d pixel_b = fullImagePixel(b.pixel, b.level);
     result.push_back({{pixel_a, pointOn(a, reference.camera, pixel_a)},
@@ -80,6 +78,10 @@ std::vector<Correspondence> alignPatches(const FrameFeatures& reference, const F
     if (pair.hasDepth()) aligned.push_back(pair);
   }
   return aligned;
+}
+
+int inlierCount(const std::optional<MotionEstimate>& motion) {
+  return motion ? static_cast<int>(motion->inliers.size()) : 0;
 }
 
 // From colour camera frames to depth camera frames.
@@ -166,31 +168,24 @@ TextureOdometryResult TextureOdometry::match(const FrameFeatures& reference, con
     return result;
   }
 
-  const MotionCameras cameras{reference.camera, current.camera};
-  const std::optional<MotionEstimate> coarse =
-      estimateByRansac(pairs, cameras, {parameters_.coarse_inlier_px, parameters_.inlier_depth_sigmas},
-                       parameters_.ransac_iterations);
   const int needed = std::max(parameters_.min_inliers,
                               static_cast<int>(std::ceil(parameters_.min_inlier_fraction * result.matches)));
-  result.inliers = coarse ? static_cast<int>(coarse->inliers.size()) : 0;
+  const MotionCameras cameras{reference.camera, current.camera};
+  std::optional<MotionEstimate> motion =
+      estimateByRansac(pairs, cameras, {parameters_.coarse_inlier_px, parameters_.inlier_depth_sigmas},
+                       parameters_.ransac_iterations);
+  if (inlierCount(motion) >= needed) {
+    motion = refineMotion(alignPatches(reference, current, matches, pairs, motion->inliers), cameras,
+                          {parameters_.fine_inlier_px, parameters_.inlier_depth_sigmas},
+                          motion->T_reference_current);
+  }
+  result.inliers = inlierCount(motion);
   if (result.inliers < needed) {
     result.reason =
         "only " + std::to_string(result.inliers) + " inliers of " + std::to_string(result.matches);
     return result;
   }
-
-  const std::vector<Correspondence> aligned =
-      alignPatches(reference, current, matches, pairs, coarse->inliers);
-  const std::optional<MotionEstimate> fine =
-      refineMotion(aligned, cameras, {parameters_.fine_inlier_px, parameters_.inlier_depth_sigmas},
-                   coarse->T_reference_current);
-  result.inliers = fine ? static_cast<int>(fine->inliers.size()) : 0;
-  if (result.inliers < needed) {
-    result.reason =
-        "only " + std::to_string(result.inliers) + " inliers of " + std::to_string(result.matches);
-    return result;
-  }
-  setMotion(*fine, reference, current, result);
+  setMotion(*motion, reference, current, result);
   result.found = true;
   return result;
 }
