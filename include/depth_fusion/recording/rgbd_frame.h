@@ -10,12 +10,15 @@
 namespace depth_fusion {
 
 struct RgbdFrame {
-  double stamp_s = 0.0;          // of the depth image
-  cv::Mat depth;                 // CV_16UC1 in units of depth_unit_m, or CV_32FC1 in units of depth_unit_m; 0, NaN = none
-  double depth_unit_m = 1.0;     // metres a unit of `depth` (0.001 for millimetres)
-  cv::Mat color;                 // CV_8UC3 BGR or CV_8UC1, or empty; nearest in time to `depth`
-  CameraIntrinsics intrinsics;   // of the depth camera; width and height equal those of `depth`
-  std::optional<Pose> T_W_D;     // reference pose, where the recording has one for this very frame
+  double stamp_s = 0.0;  // of the depth image
+  cv::Mat depth;  // CV_16UC1 in units of depth_unit_m, or CV_32FC1 in units of depth_unit_m; 0, NaN = none
+  double depth_unit_m = 1.0;    // metres a unit of `depth` (0.001 for millimetres)
+  cv::Mat color;                // CV_8UC3 BGR or CV_8UC1, or empty; nearest in time to `depth`
+  CameraIntrinsics intrinsics;  // of the depth camera; width and height equal those of `depth`
+  std::optional<CameraIntrinsics>
+      color_intrinsics;       // unset: colour has the depth camera's, depth is registered to it
+  std::optional<Pose> T_C_D;  // unset: depth is registered to colour
+  std::optional<Pose> T_W_D;  // reference pose, where the recording has one for this very frame
 };
 
 }  // namespace depth_fusion

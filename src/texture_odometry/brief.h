@@ -1,0 +1,16 @@
+// BRIEF (Calonder et al. 2012), upright: between frames the camera hardly rolls.
+#pragma once
+
+#include "depth_fusion/texture_odometry/frame_features.h"
+
+namespace depth_fusion {
+
+// Pixels about a feature that its descriptor reads.
+constexpr int kBriefRadius_px = 15;
+
+BriefDescriptor describe(const cv::Mat& smoothed, cv::Point pixel);
+
+// The number of comparisons that differ.
+int hammingDistance(const BriefDescriptor& a, const BriefDescriptor& b);
+
+}  // namespace depth_fusion

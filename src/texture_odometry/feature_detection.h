@@ -1,0 +1,11 @@
+// Corners spread over the image, with BRIEF descriptors.
+#pragma once
+
+#include "depth_fusion/texture_odometry/texture_odometry.h"
+
+namespace depth_fusion {
+
+// Of an image CV_8UC3 (BGR) or CV_8UC1; the features' surfaces are left out.
+void detectFeatures(const cv::Mat& color, const TextureOdometryParameters& parameters, FrameFeatures& result);
+
+}  // namespace depth_fusion

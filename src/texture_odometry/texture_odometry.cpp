@@ -1,0 +1,193 @@
+#include "depth_fusion/texture_odometry/texture_odometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "texture_odometry/feature_depth.h"
+#include "texture_odometry/feature_detection.h"
+#include "texture_odometry/feature_matching.h"
+#include "texture_odometry/motion_estimation.h"
+#include "texture_odometry/patch_alignment.h"
+
+namespace depth_fusion {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// A corner is found to about a pixel of its level, its patch aligned to a fraction of one.
+constexpr double kCornerSigma_px = 1.0;
+
+std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+// Why the colour image cannot be used, or nothing.
+std::string colorProblem(const RgbdFrame& frame, const CameraIntrinsics& camera) {
+  if (frame.color.empty()) return "no colour image";
+  if (frame.color.cols == camera.width && frame.color.rows == camera.height) return {};
+  return "the colour image is " + sizeText(frame.color.cols, frame.color.rows) + ", its intrinsics are for " +
+         sizeText(camera.width, camera.height);
+}
+
+std::optional<Vector3d> pointOn(const Feature& feature, const CameraIntrinsics& camera,
+                                const Vector2d& pixel) {
+  if (!feature.surface_C) return std::nullopt;
+  const Vector3d ray = rayThrough(camera, pixel);
+  const double inverse_z = feature.surface_C->dot(ray);
+  if (!(inverse_z > 0.0)) return std::nullopt;
+  return Vector3d(ray / inverse_z);
+}
+
+// The pairs with depth in one of the frames at least, at the corners' pixels.
+std::vector<Correspondence> correspondencesOf(const FrameFeatures& reference, const FrameFeatures& current,
+                                              std::vector<FeatureMatch>& matches) {
+  std::vector<Correspondence> result;
+  std::vector<FeatureMatch> kept;
+  for (const FeatureMatch& match : matches) {
+    const Feature& a = reference.features[match.reference];
+    const Feature& b = current.features[match.current];
+    const Vector2d pixel_a = fullImagePixel(a.pixel, a.level);
+    const Vector2d pixel_b = fullImagePixel(b.pixel, b.level);
+    result.push_back({{pixel_a, pointOn(a, reference.camera, pixel_a)},
+                      {pixel_b, pointOn(b, current.camera, pixel_b)},
+                      kCornerSigma_px * (1 << a.level)});
+    if (result.back().hasDepth()) {
+      kept.push_back(match);
+    } else {
+      result.pop_back();
+    }
+  }
+  matches = std::move(kept);
+  return result;
+}
+
+// The indexed pairs with the current pixel where the reference's patch fits; without those that fit nowhere.
+std::vector<Correspondence> alignPatches(const FrameFeatures& reference, const FrameFeatures& current,
+                                         const std::vector<FeatureMatch>& matches,
+                                         const std::vector<Correspondence>& pairs,
+                                         const std::vector<size_t>& indices) {
+  std::vector<Correspondence> aligned;
+  for (const size_t index : indices) {
+    const Feature& a = reference.features[matches[index].reference];
+    const Feature& b = current.features[matches[index].current];
+    const std::optional<Vector2d> level_pixel =
+        alignPatch(a.patch, current.smoothed_levels[b.level], Vector2d(b.pixel.x, b.pixel.y));
+    if (!level_pixel) continue;
+    Correspondence pair = pairs[index];
+    pair.current.pixel = fullImagePixel(cv::Point2d(level_pixel->x(), level_pixel->y()), b.level);
+    pair.current.point = pointOn(b, current.camera, pair.current.pixel);
+    if (pair.hasDepth()) aligned.push_back(pair);
+  }
+  return aligned;
+}
+
+int inlierCount(const std::optional<MotionEstimate>& motion) {
+  return motion ? static_cast<int>(motion->inliers.size()) : 0;
+}
+
+// From colour camera frames to depth camera frames.
+void setMotion(const MotionEstimate& estimate, const FrameFeatures& reference, const FrameFeatures& current,
+               TextureOdometryResult& result) {
+  const Pose T_D_C = reference.T_C_D.inverse();
+  result.T_previous_current = orthonormalized(T_D_C * estimate.T_reference_current * current.T_C_D);
+  const Vector3d t = T_D_C.translation();
+  Eigen::Matrix3d cross;
+  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
+  Matrix6d adjoint = Matrix6d::Zero();
+  adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = T_D_C.linear();
+  adjoint.bottomLeftCorner<3, 3>() = cross * T_D_C.linear();
+  result.covariance = adjoint * estimate.covariance * adjoint.transpose();
+}
+
+}  // namespace
+
+ParameterTable TextureOdometryParameters::table() {
+  return {
+      {"levels", &levels, 1, 6, "of the image pyramid; coarse ones help against motion blur"},
+      {"cell_size_px", &cell_size_px, 8, 1000, "of the grid that spreads the features"},
+      {"features_per_cell", &features_per_cell, 1, 100, "the strongest corners of a cell"},
+      {"corner_threshold", &corner_threshold, 1, 255, "brightness step of a corner (FAST)"},
+      {"weak_corner_threshold", &weak_corner_threshold, 1, 255, "the same in cells with no corner"},
+      {"min_features", &min_features, 3, 100000, "of a frame; no motion below"},
+      {"min_matches", &min_matches, 3, 100000, "with depth in one frame at least; no motion below"},
+      {"min_inliers", &min_inliers, 6, 100000, "no motion below"},
+      {"min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0, "of the matches; no motion below"},
+      {"max_descriptor_distance", &max_descriptor_distance, 0, 256, "differing bits of a match"},
+      {"search_radius_px", &search_radius_px, 1.0, 10000.0, "how far a feature moves between frames at most"},
+      {"ransac_iterations", &ransac_iterations, 1, 100000, "most samples of three matches"},
+      {"coarse_inlier_px", &coarse_inlier_px, 0.1, 100.0, "reprojection error of an inlier in RANSAC"},
+      {"fine_inlier_px", &fine_inlier_px, 0.05, 100.0, "the same once the patches are aligned"},
+      {"inlier_depth_sigmas", &inlier_depth_sigmas, 0.5, 100.0,
+       "depth error of an inlier in standard deviations of the sensor"}};
+}
+
+TextureOdometry::TextureOdometry(const TextureOdometryParameters& parameters) : parameters_(parameters) {
+  validate(parameters_.table());
+  reset();
+}
+
+void TextureOdometry::reset() {
+  previous_ = {};
+  previous_.reason = "the first frame";
+}
+
+TextureOdometryResult TextureOdometry::process(const RgbdFrame& frame) {
+  FrameFeatures current = extract(frame);
+  TextureOdometryResult result = match(previous_, current);
+  previous_ = std::move(current);
+  return result;
+}
+
+FrameFeatures TextureOdometry::extract(const RgbdFrame& frame) const {
+  FrameFeatures result;
+  result.camera = frame.color_intrinsics.value_or(frame.intrinsics);
+  result.T_C_D = frame.T_C_D.value_or(Pose::Identity());
+  result.reason = colorProblem(frame, result.camera);
+  if (!result.reason.empty()) return result;
+  detectFeatures(frame.color, parameters_, result);
+  findSurfaces(frame, result);
+  const int count = static_cast<int>(result.features.size());
+  if (count < parameters_.min_features) result.reason = "only " + std::to_string(count) + " features";
+  return result;
+}
+
+TextureOdometryResult TextureOdometry::match(const FrameFeatures& reference, const FrameFeatures& current,
+                                             bool anywhere_in_image) const {
+  TextureOdometryResult result;
+  result.features = static_cast<int>(current.features.size());
+  result.reason = current.reason;
+  if (result.reason.empty() && !reference.reason.empty()) result.reason = "reference: " + reference.reason;
+  if (!result.reason.empty()) return result;
+
+  const double radius_px = anywhere_in_image ? 1e6 : parameters_.search_radius_px;
+  std::vector<FeatureMatch> matches =
+      matchFeatures(reference.features, current.features, radius_px, parameters_.max_descriptor_distance);
+  const std::vector<Correspondence> pairs = correspondencesOf(reference, current, matches);
+  result.matches = static_cast<int>(pairs.size());
+  if (result.matches < parameters_.min_matches) {
+    result.reason = "only " + std::to_string(result.matches) + " matches with depth";
+    return result;
+  }
+
+  const int needed = std::max(parameters_.min_inliers,
+                              static_cast<int>(std::ceil(parameters_.min_inlier_fraction * result.matches)));
+  const MotionCameras cameras{reference.camera, current.camera};
+  std::optional<MotionEstimate> motion =
+      estimateByRansac(pairs, cameras, {parameters_.coarse_inlier_px, parameters_.inlier_depth_sigmas},
+                       parameters_.ransac_iterations);
+  if (inlierCount(motion) >= needed) {
+    motion = refineMotion(alignPatches(reference, current, matches, pairs, motion->inliers), cameras,
+                          {parameters_.fine_inlier_px, parameters_.inlier_depth_sigmas},
+                          motion->T_reference_current);
+  }
+  result.inliers = inlierCount(motion);
+  if (result.inliers < needed) {
+    result.reason =
+        "only " + std::to_string(result.inliers) + " inliers of " + std::to_string(result.matches);
+    return result;
+  }
+  setMotion(*motion, reference, current, result);
+  result.found = true;
+  return result;
+}
+
+}  // namespace depth_fusion
