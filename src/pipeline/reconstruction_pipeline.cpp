@@ -1,6 +1,7 @@
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace depth_fusion {
 namespace {
@@ -18,6 +19,7 @@ ParameterTable PipelineParameters::table() {
   ParameterTable all;
   for (const auto& [stage, table] :
        {std::make_pair("map", map.table()), std::make_pair("preprocessing", preprocessing.table()),
+        std::make_pair("texture_odometry", texture_odometry.table()),
         std::make_pair("icp_tracking", icp_tracking.table()), std::make_pair("tsdf_fusion", tsdf_fusion.table()),
         std::make_pair("surface_mesh", surface_mesh.table())}) {
     const ParameterTable rows = withPrefix(stage, table);
@@ -32,6 +34,7 @@ ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const Pi
       parameters_(parameters),
       map_(compute, parameters.map),
       preprocessor_(compute, parameters.preprocessing, camera),
+      odometry_(parameters.texture_odometry),
       tracker_(compute, parameters.icp_tracking, camera),
       fusion_(compute, map_, parameters.tsdf_fusion),
       renderer_(compute, map_, camera) {}
@@ -40,9 +43,11 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
   const StageTimers::Scope timer(timers_, "frame");
   FrameResult result;
   const DepthFrame& depth = preprocess(frame);
-  result.tracking = view_ == nullptr ? begin(frame) : tracker_.track(depth, *view_, view_->T_W_D, timers_);
+  const MotionPrior motion = prior(frame);
+  result.tracking = view_ == nullptr ? begin(frame) : tracker_.track(depth, *view_, motion, timers_);
   if (result.tracking.status == TrackingStatus::kLost) return result;
   result.fusion = fuse(depth, result.tracking.T_W_D);
+  previous_ = {result.tracking.T_W_D, std::nullopt};
   view_ = &renderer_.render(result.tracking.T_W_D, parameters_.preprocessing.min_range_m,
                             parameters_.preprocessing.max_range_m, timers_);
   return result;
@@ -67,6 +72,18 @@ const DepthFrame& ReconstructionPipeline::preprocess(const RgbdFrame& frame) {
   const DepthFrame& depth = preprocessor_.process(frame);
   compute_.finish();
   return depth;
+}
+
+MotionPrior ReconstructionPipeline::prior(const RgbdFrame& frame) {
+  const StageTimers::Scope timer(timers_, "texture_odometry");
+  const TextureOdometryResult motion = odometry_.process(frame);
+  if (!motion.found) return previous_;
+  const Matrix6d to_world = adjoint(previous_.T_W_D);
+  previous_.T_W_D = orthonormalized(previous_.T_W_D * motion.T_previous_current);
+  MotionPrior result = previous_;
+  const double scale = std::pow(parameters_.texture_odometry.sigma_scale, 2);
+  result.covariance = scale * to_world * motion.covariance * to_world.transpose();
+  return result;
 }
 
 TrackingResult ReconstructionPipeline::begin(const RgbdFrame& frame) const {

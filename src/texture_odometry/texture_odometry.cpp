@@ -117,7 +117,9 @@ ParameterTable TextureOdometryParameters::table() {
       {"coarse_inlier_px", &coarse_inlier_px, 0.1, 100.0, "reprojection error of an inlier in RANSAC"},
       {"fine_inlier_px", &fine_inlier_px, 0.05, 100.0, "the same once the patches are aligned"},
       {"inlier_depth_sigmas", &inlier_depth_sigmas, 0.5, 100.0,
-       "depth error of an inlier in standard deviations of the sensor"}};
+       "depth error of an inlier in standard deviations of the sensor"},
+      {"sigma_scale", &sigma_scale, 0.1, 1000.0,
+       "factor on the motion's standard deviations, for errors that the matches share"}};
 }
 
 TextureOdometry::TextureOdometry(const TextureOdometryParameters& parameters) : parameters_(parameters) {

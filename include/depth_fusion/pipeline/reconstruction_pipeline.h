@@ -6,6 +6,7 @@
 #include "depth_fusion/icp_tracking/icp_tracker.h"
 #include "depth_fusion/model_view/model_view.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
+#include "depth_fusion/texture_odometry/texture_odometry.h"
 #include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
 
 namespace depth_fusion {
@@ -13,6 +14,7 @@ namespace depth_fusion {
 struct PipelineParameters {
   MapParameters map;
   PreprocessingParameters preprocessing;
+  TextureOdometryParameters texture_odometry;
   IcpTrackingParameters icp_tracking;
   FusionParameters tsdf_fusion;
   SurfaceMeshParameters surface_mesh;
@@ -45,6 +47,8 @@ class ReconstructionPipeline {
 
  private:
   const DepthFrame& preprocess(const RgbdFrame& frame);
+  // From the texture's motion since the frame before; the last pose without one.
+  MotionPrior prior(const RgbdFrame& frame);
   // The first pose, if the frame has enough depth for the next one to be tracked against.
   TrackingResult begin(const RgbdFrame& frame) const;
   FusionResult fuse(const DepthFrame& depth, const Pose& T_W_D);
@@ -54,10 +58,12 @@ class ReconstructionPipeline {
   StageTimers timers_;
   BlockSparseMap map_;
   DepthPreprocessor preprocessor_;
+  TextureOdometry odometry_;
   IcpTracker tracker_;
   TsdfFusion fusion_;
   ModelViewRenderer renderer_;
   const ModelView* view_ = nullptr;  // of the last fused frame; none before the first
+  MotionPrior previous_;             // of the frame before
 };
 
 }  // namespace depth_fusion
