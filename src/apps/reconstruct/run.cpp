@@ -91,6 +91,7 @@ void Run::fuseRecording() {
     showProgress(false);
   }
   if (pipeline_) showProgress(true);
+  if (interrupted) complain("interrupted; the frames so far are written");
 }
 
 std::optional<RgbdFrame> Run::nextFrame() {
