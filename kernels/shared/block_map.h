@@ -17,22 +17,6 @@ inline int block_address(int3 block, const GridArgs grid) {
   return in_window.x + n * (in_window.y + n * in_window.z);
 }
 
-// The same for one block a lane.
-inline vint block_addresses(vint x, vint y, vint z, const GridArgs grid) {
-  const int n = grid.blocks_per_axis;
-  x -= grid.origin[0];
-  y -= grid.origin[1];
-  z -= grid.origin[2];
-  const vint inside = (x >= 0) & (x < n) & (y >= 0) & (y < n) & (z >= 0) & (z < n);
-  x += grid.wrapped_origin[0];
-  y += grid.wrapped_origin[1];
-  z += grid.wrapped_origin[2];
-  x = select(x, x - n, x >= n);
-  y = select(y, y - n, y >= n);
-  z = select(z, z - n, z >= n);
-  return select((vint)(-1), x + n * (y + n * z), inside);
-}
-
 // Byte offsets of a block's distances and weights in the voxel pool.
 inline size_t block_distances(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS); }
 inline size_t block_weights(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS) + BLOCK_VOXELS; }

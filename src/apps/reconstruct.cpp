@@ -42,7 +42,8 @@ void addOptions(CLI::App& app, RunOptions& options, std::vector<double>& intrins
   app.add_option("--voxel-size", map.voxel_size_m, "edge of a voxel in metres")->capture_default_str();
   app.add_option("--blocks-per-axis", map.blocks_per_axis, "the window's size in blocks, N")->capture_default_str();
   app.add_option("--block-size", map.block_size, "voxels per block axis, M: 4, 8, 16 or 32")->capture_default_str();
-  app.add_option("--truncation", map.truncation_m, "distance kept on both sides of a surface, metres (4 voxels)");
+  app.add_option("--truncation", map.truncation_m, "distance kept on both sides of a surface, metres; 0 = four voxels")
+      ->capture_default_str();
   app.add_option("--max-range", options.parameters.preprocessing.max_range_m, "farthest depth used, metres")
       ->capture_default_str();
   app.add_option("--intrinsics", intrinsics, "fx,fy,cx,cy of the depth camera, instead of the recording's")
@@ -79,8 +80,6 @@ int run(int argc, char** argv) {
     loadParameterFile(options.parameters.table(), options.parameter_file);
     CLI11_PARSE(app, argc, argv);
   }
-  MapParameters& map = options.parameters.map;
-  if (app.count("--truncation") == 0 && app.count("--voxel-size") > 0) map.truncation_m = 4.0f * map.voxel_size_m;
   if (!intrinsics.empty()) options.recording.intrinsics = parseIntrinsics(intrinsics);
 
   if (options.device == "list") {

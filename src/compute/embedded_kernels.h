@@ -5,7 +5,7 @@
 
 namespace depth_fusion {
 
-// path: below kernels/, as "map/select_blocks.cl". Throws Error if there is no such file.
+// path: below kernels/, as "map/blocks.cl". Throws Error if there is no such file.
 std::string embeddedKernelSource(const std::string& path);
 
 }  // namespace depth_fusion

@@ -31,8 +31,9 @@ std::string lostReason(const TrackingResult& result, const IcpSystem& system, co
   return reason.str();
 }
 
-// The box that the frame's points would fill evenly with the mean and spread that they have, seen from M. They count by
-// the sensor's accuracy, as they do in the system: a few points far away would make the box large and all rotations weak.
+// The cube that points with the mean and spread of the frame's would fill evenly, seen from M. They count by the sensor's
+// accuracy, as they do in the system: a few points far away would make the box large and all rotations weak. A cube, for
+// the lever arms of a rotation about an axis lie across it: the box's own sizes (the paper's S) would scale them wrongly.
 Eigen::AlignedBox3d spreadBox(const DepthLevel& coarsest, const Pose& T_M_D) {
   const CameraIntrinsics& camera = coarsest.camera;
   const cv::Mat depth = readImage(coarsest.depth, camera, 1);
@@ -54,8 +55,9 @@ Eigen::AlignedBox3d spreadBox(const DepthLevel& coarsest, const Pose& T_M_D) {
   }
   if (weights <= 0.0) return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()};
   const Eigen::Vector3d mean = sum / weights;
-  const Eigen::Vector3d half_size = (3.0 * (squares / weights - mean.cwiseAbs2())).cwiseMax(0.0).cwiseSqrt();
-  return {mean - half_size, mean + half_size};
+  const double half_size = std::sqrt(std::max((squares / weights - mean.cwiseAbs2()).sum(), 0.0));
+  const Eigen::Vector3d half_diagonal = Eigen::Vector3d::Constant(half_size);
+  return {mean - half_diagonal, mean + half_diagonal};
 }
 
 // A prior in the frame of the system, M.
@@ -86,13 +88,9 @@ IcpSystem weighed(const IcpSystem& system, double correlated) {
   return result;
 }
 
-// Without a measured prior a variance of 1 stands for "not known" in the free directions.
 Solution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const SystemPrior& prior, double correlated) {
   const IcpSystem system = weighed(analysis.constrained(), correlated);
-  if (!prior.information) {
-    const Matrix6d information = system.hessian + Matrix6d::Identity();
-    return {analysis.solve(), information.inverse()};
-  }
+  if (!prior.information) return {analysis.solve(), system.hessian.inverse()};
   const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
   const Matrix6d information = system.hessian + *prior.information;
   const Vector6d gradient = system.gradient + *prior.information * deviation;
@@ -143,6 +141,9 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
                                          parameters_.coarse_iterations};
   const float distance_ratio = std::sqrt(parameters_.coarse_distance_m / parameters_.fine_distance_m);
 
+  // What geometry says weakly is worth more than no measurement.
+  const double threshold = parameters_.degeneracy_threshold * (system_prior.information ? 1.0 : 0.1);
+
   TrackingResult result;
   IcpSystem system;
   Pose T_M_D = system_prior.T_M_D;
@@ -152,8 +153,11 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
     for (int i = 0; i < iterations[level]; ++i) {
       system = kernels_->accumulateSystem(frame.levels[level], view, T_M_D, gates, partial_sums_);
       ++result.iterations;
-      if (system.inliers < 6.0) break;
-      const DegeneracyAnalysis analysis(system, box, parameters_.degeneracy_threshold);
+      if (system.inliers < 6.0) {
+        result.reason = system.source_points > 0.0 ? "no point matches the view" : "no points with depth and normal";
+        return result;
+      }
+      const DegeneracyAnalysis analysis(system, box, threshold);
       const Solution solution = solve(analysis, T_M_D, system_prior, parameters_.correlated_points);
       T_M_D = poseFromTwist(solution.twist) * T_M_D;
       result.reason = analysis.freeDirectionNames();
@@ -164,6 +168,10 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
         break;
       }
     }
+  }
+  if (!result.reason.empty() && !system_prior.information) {
+    result.reason = "the geometry seen leaves free " + result.reason + ", and no texture helps";
+    return result;
   }
   result.inliers = static_cast<int>(system.inliers);
   result.inlier_fraction = system.source_points > 0.0 ? system.inliers / system.source_points : 0.0;

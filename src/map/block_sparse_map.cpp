@@ -28,8 +28,9 @@ ParameterTable MapParameters::table() {
   return {{"voxel_size_m", &voxel_size_m, 1e-5, 1.0, "edge of a voxel"},
           {"blocks_per_axis", &blocks_per_axis, 1, 1280, "blocks per axis of the window (the paper's N)"},
           {"block_size", &block_size, 4, 32, "voxels per axis of a block, a power of two (the paper's M)"},
-          {"truncation_m", &truncation_m, 1e-5, 10.0, "distance kept on both sides of a surface (the paper's delta)"},
-          {"pool_mib", &pool_mib, 1, 1048576, "memory for voxels, allocated once"}};
+          {"truncation_m", &truncation_m, 0.0, 10.0,
+           "distance kept on both sides of a surface (the paper's delta); 0 = four voxels"},
+          {"pool_mib", &pool_mib, 1, 2047, "memory for voxels, allocated once"}};
 }
 
 GridArgs gridArgs(const BlockSparseMap& map) {
@@ -62,6 +63,7 @@ BlockSparseMap::BlockSparseMap(ComputeContext& compute, const MapParameters& par
   validate(parameters_.table());
   const int m = parameters_.block_size;
   check((m & (m - 1)) == 0, "map/block_size is " + std::to_string(m) + "; it must be a power of two");
+  if (parameters_.truncation_m == 0.0f) parameters_.truncation_m = 4.0f * parameters_.voxel_size_m;
   check(parameters_.truncation_m >= 2.0f * parameters_.voxel_size_m,
         "map/truncation_m must be at least two voxels, else no surface is seen between them");
   const size_t block_bytes = 2 * cube(m);
@@ -69,7 +71,6 @@ BlockSparseMap::BlockSparseMap(ComputeContext& compute, const MapParameters& par
                        cube(parameters_.blocks_per_axis));
   check(capacity_ > 0, "map/pool_mib holds not even one block");
   const size_t limit = compute.impl().device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-  check(capacity_ * block_bytes < size_t{1} << 31, "map/pool_mib must be below 2048");
   check(capacity_ * block_bytes <= limit, "map/pool_mib is over the device's largest buffer, " +
                                               std::to_string(limit >> 20) + " MiB");
   offsets_ = DeviceBuffer(compute, 4 * cube(parameters_.blocks_per_axis), "the offsets of map/blocks_per_axis");

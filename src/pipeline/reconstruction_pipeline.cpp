@@ -1,15 +1,21 @@
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace depth_fusion {
 namespace {
 
-// The window's middle lies ahead of the camera, where the scene is, but keeps the camera well inside.
-Eigen::Vector3d windowCentre(const MapParameters& map, const Pose& T_W_D) {
-  const double window_m = static_cast<double>(map.voxel_size_m) * map.block_size * map.blocks_per_axis;
-  const double ahead_m = std::min(0.35 * window_m, 2.0);
+// Where the depth in range is.
+cv::Mat inRange(const RgbdFrame& frame, const PreprocessingParameters& parameters) {
+  cv::Mat mask;
+  cv::inRange(frame.depth, parameters.min_range_m / frame.depth_unit_m, parameters.max_range_m / frame.depth_unit_m,
+              mask);
+  return mask;
+}
+
+// The window's middle lies ahead of the camera, at the mean depth of what it sees first.
+Eigen::Vector3d windowCentre(const RgbdFrame& frame, const PreprocessingParameters& parameters, const Pose& T_W_D) {
+  const double ahead_m = frame.depth_unit_m * cv::mean(frame.depth, inRange(frame, parameters))[0];
   return T_W_D * Eigen::Vector3d(0.0, 0.0, ahead_m);
 }
 
@@ -37,7 +43,9 @@ ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const Pi
       odometry_(parameters.texture_odometry),
       tracker_(compute, parameters.icp_tracking, camera),
       fusion_(compute, map_, parameters.tsdf_fusion),
-      renderer_(compute, map_, camera) {}
+      renderer_(compute, map_, camera) {
+  parameters_.map = map_.parameters();
+}
 
 FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
   const StageTimers::Scope timer(timers_, "frame");
@@ -46,7 +54,8 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
   const MotionPrior motion = prior(frame);
   result.tracking = view_ == nullptr ? begin(frame) : tracker_.track(depth, *view_, motion, timers_);
   if (result.tracking.status == TrackingStatus::kLost) return result;
-  result.fusion = fuse(depth, result.tracking.T_W_D);
+  fuse(frame, depth, result);
+  if (result.tracking.status == TrackingStatus::kLost) return result;
   previous_ = {result.tracking.T_W_D, std::nullopt};
   view_ = &renderer_.render(result.tracking.T_W_D, parameters_.preprocessing.min_range_m,
                             parameters_.preprocessing.max_range_m, timers_);
@@ -59,11 +68,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   const DepthFrame& depth = preprocess(frame);
   result.tracking.status = TrackingStatus::kTracking;
   result.tracking.T_W_D = T_W_D;
-  result.fusion = fuse(depth, T_W_D);
-  if (result.fusion.blocks_updated == 0) {
-    result.tracking.status = TrackingStatus::kLost;
-    result.tracking.reason = "no depth in range";
-  }
+  fuse(frame, depth, result);
   return result;
 }
 
@@ -75,6 +80,7 @@ const DepthFrame& ReconstructionPipeline::preprocess(const RgbdFrame& frame) {
 }
 
 MotionPrior ReconstructionPipeline::prior(const RgbdFrame& frame) {
+  if (!parameters_.texture_odometry.enabled) return previous_;
   const StageTimers::Scope timer(timers_, "texture_odometry");
   const TextureOdometryResult motion = odometry_.process(frame);
   if (!motion.found) return previous_;
@@ -87,10 +93,7 @@ MotionPrior ReconstructionPipeline::prior(const RgbdFrame& frame) {
 }
 
 TrackingResult ReconstructionPipeline::begin(const RgbdFrame& frame) const {
-  cv::Mat in_range;
-  cv::inRange(frame.depth, parameters_.preprocessing.min_range_m / frame.depth_unit_m,
-              parameters_.preprocessing.max_range_m / frame.depth_unit_m, in_range);
-  const int points = cv::countNonZero(in_range);
+  const int points = cv::countNonZero(inRange(frame, parameters_.preprocessing));
   TrackingResult first;
   if (points < parameters_.icp_tracking.min_inliers) {
     first.reason = "only " + std::to_string(points) + " points with depth in range to begin with";
@@ -100,9 +103,13 @@ TrackingResult ReconstructionPipeline::begin(const RgbdFrame& frame) const {
   return first;
 }
 
-FusionResult ReconstructionPipeline::fuse(const DepthFrame& depth, const Pose& T_W_D) {
-  if (map_.usage().blocks == 0) map_.reset(windowCentre(parameters_.map, T_W_D));
-  return fusion_.integrate(depth, T_W_D, timers_);
+void ReconstructionPipeline::fuse(const RgbdFrame& frame, const DepthFrame& depth, FrameResult& result) {
+  TrackingResult& tracking = result.tracking;
+  if (map_.usage().blocks == 0) map_.reset(windowCentre(frame, parameters_.preprocessing, tracking.T_W_D));
+  result.fusion = fusion_.integrate(depth, tracking.T_W_D, timers_);
+  if (result.fusion.blocks_updated > 0) return;
+  tracking.status = TrackingStatus::kLost;
+  tracking.reason = "no depth in range and in the map's window; see map/blocks_per_axis and preprocessing/max_range_m";
 }
 
 }  // namespace depth_fusion

@@ -20,7 +20,7 @@ ParameterTable PreprocessingParameters::table() {
           {"bilateral_cutoff_sigmas", &bilateral_cutoff_sigmas, 0.1, 100.0,
            "depth difference, in standard deviations of the sensor, at which a neighbour counts no more"},
           {"max_relative_step", &max_relative_step, 0.001, 1.0,
-           "depth step between pixels, as a fraction of the depth, across which no normal is computed"}};
+           "depth step between neighbours two pixels apart, as a fraction of the depth, across which no normal is computed"}};
 }
 
 struct DepthPreprocessor::Kernels : DepthPreprocessingKernels {

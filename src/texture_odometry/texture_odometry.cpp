@@ -102,6 +102,7 @@ void setMotion(const MotionEstimate& estimate, const FrameFeatures& reference, c
 
 ParameterTable TextureOdometryParameters::table() {
   return {
+      {"enabled", &enabled, 0, 1, "false: ICP starts from the last pose"},
       {"levels", &levels, 1, 6, "of the image pyramid; coarse ones help against motion blur"},
       {"cell_size_px", &cell_size_px, 8, 1000, "of the grid that spreads the features"},
       {"features_per_cell", &features_per_cell, 1, 100, "the strongest corners of a cell"},

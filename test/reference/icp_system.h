@@ -31,8 +31,9 @@ struct OrientedDepth {
 
 class IcpReference {
  public:
-  IcpReference(const OrientedDepth& model, const Pose& T_M_D, double max_distance_m, double min_normal_cosine)
-      : model_(model), T_M_D_(T_M_D), max_distance_m_(max_distance_m), min_normal_cosine_(min_normal_cosine) {
+  IcpReference(const OrientedDepth& model, const Pose& T_M_D, double max_distance_m, double min_normal_cosine,
+               double huber_sigmas)
+      : model_(model), T_M_D_(T_M_D), max_distance_m_(max_distance_m), min_normal_cosine_(min_normal_cosine), huber_sigmas_(huber_sigmas) {
     for (int i = 0; i < 6; ++i) {
       forward_[i] = poseFromTwist(kStep * Vector6d::Unit(i));
       backward_[i] = poseFromTwist(-kStep * Vector6d::Unit(i));
@@ -65,7 +66,9 @@ class IcpReference {
     const Eigen::Vector3d q = model_.point(x, y);
     const Eigen::Vector3d n = model_.normal(x, y);
     if ((p - q).norm() >= max_distance_m_ || n.dot(T_M_D_.linear() * normal_D) <= min_normal_cosine_) return;
-    addMatch(p, q, n, std::pow(SENSOR_SIGMA_A / sensorSigma(p_D.z()), 2));
+    const double sigma = sensorSigma(p_D.z());
+    const double huber = std::min(1.0, huber_sigmas_ * sigma / std::max(std::abs(n.dot(p - q)), 1e-6));
+    addMatch(p, q, n, huber * std::pow(SENSOR_SIGMA_A / sigma, 2));
   }
 
   void addMatch(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& n, double weight) {
@@ -82,7 +85,7 @@ class IcpReference {
 
   const OrientedDepth& model_;
   Pose T_M_D_;
-  double max_distance_m_, min_normal_cosine_;
+  double max_distance_m_, min_normal_cosine_, huber_sigmas_;
   std::array<Pose, 6> forward_, backward_;
   IcpSystem system_;
 };

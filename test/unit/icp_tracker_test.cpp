@@ -4,6 +4,7 @@
 
 #include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/simulation/simulated_recording.h"
+#include "icp_tracking/degeneracy.h"
 #include "icp_tracking/icp_tracking_kernels.h"
 #include "reference/icp_system.h"
 #include "shared/types.h"
@@ -65,7 +66,7 @@ TrackingResult track(const Sight& sight, const ModelView& view, const Pose& T_W_
                      const IcpTrackingParameters& parameters = {}) {
   IcpTracker tracker(compute(), parameters, view.camera);
   StageTimers timers;
-  return tracker.track(sight.depth(), view, T_W_D_prior, timers);
+  return tracker.track(sight.depth(), view, {T_W_D_prior, std::nullopt}, timers);
 }
 
 void expectLost(const TrackingResult& result, const std::string& reason) {
@@ -94,9 +95,9 @@ TEST(IcpSystem, EqualsTheReferenceWithNumericalJacobian) {
     DeviceBuffer sums(compute(), camera.height * ICP_SUMS * sizeof(float), "sums");
     for (int level = 0; level < DepthPreprocessor::kLevels; ++level) {
       const IcpSystem system = kernels.accumulateSystem(source.depth().levels[level], model.asView(T_W_M),
-                                                        start, 0.05f, 0.9f, sums);
+                                                        start, {0.05f, 0.9f, 1.5f}, sums);
       const IcpSystem expected =
-          reference::IcpReference(model_images, start, 0.05f, 0.9f).accumulate(source.read(level));
+          reference::IcpReference(model_images, start, 0.05, 0.9, 1.5).accumulate(source.read(level));
       EXPECT_EQ(system.source_points, expected.source_points);
       EXPECT_GT(expected.inliers, 0.3 * expected.source_points);
       EXPECT_LT(expected.inliers, 0.99 * expected.source_points);
@@ -107,26 +108,83 @@ TEST(IcpSystem, EqualsTheReferenceWithNumericalJacobian) {
   }
 }
 
-TEST(IcpSystem, SolvesTheNormalEquations) {
+// The exact system of points with normals: residuals are those of a small motion.
+IcpSystem systemOf(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& surface, const Vector6d& motion) {
   IcpSystem system;
-  const Matrix6d random = Matrix6d::Random();
-  system.hessian = random * random.transpose() + Matrix6d::Identity();
-  Vector6d truth;
-  truth << 0.1, -0.2, 0.3, 1.0, -2.0, 0.5;
-  system.gradient = -system.hessian * truth;
-  const std::optional<Vector6d> twist = solve(system);
-  ASSERT_TRUE(twist);
-  EXPECT_TRUE(twist->isApprox(truth, 1e-10));
+  for (const auto& [p, n] : surface) {
+    Vector6d jacobian;
+    jacobian << p.cross(n), n;
+    system.hessian += jacobian * jacobian.transpose();
+    system.gradient -= jacobian * jacobian.dot(motion);
+  }
+  return system;
 }
 
-TEST(IcpSystem, HasNoSolutionWhereAMotionIsFree) {
-  EXPECT_FALSE(solve(IcpSystem()));
-  for (int free = 0; free < 6; ++free) {
-    IcpSystem system;
-    system.hessian = Matrix6d::Identity();
-    system.hessian(free, free) = 0.0;
-    EXPECT_FALSE(solve(system)) << free;
+// Points on the planes through (0, 0, 2) with the given normals.
+std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> planes(const std::vector<Eigen::Vector3d>& normals) {
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> surface;
+  for (const Eigen::Vector3d& n : normals) {
+    const Eigen::Vector3d a = n.unitOrthogonal();
+    const Eigen::Vector3d b = n.cross(a);
+    for (int i = -5; i <= 5; ++i) {
+      for (int j = -5; j <= 5; ++j) surface.emplace_back(Eigen::Vector3d(0, 0, 2) + 0.1 * i * a + 0.1 * j * b, n);
+    }
   }
+  return surface;
+}
+
+const Eigen::AlignedBox3d kBox(Eigen::Vector3d(-0.5, -0.5, 1.5), Eigen::Vector3d(0.5, 0.5, 2.5));
+
+TEST(DegeneracyAnalysis, SolvesWhereNothingIsFree) {
+  Vector6d motion;
+  motion << 0.01, -0.02, 0.03, 0.1, -0.2, 0.05;
+  const IcpSystem system = systemOf(planes({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), motion);
+  const DegeneracyAnalysis analysis(system, kBox, 0.005);
+  EXPECT_EQ(analysis.freeDirections(), 0);
+  EXPECT_TRUE(analysis.solve().isApprox(motion, 1e-9));
+  EXPECT_TRUE(analysis.constrained().hessian.isApprox(system.hessian, 1e-9));
+  EXPECT_EQ(analysis.freeDirectionNames(), "");
+}
+
+TEST(DegeneracyAnalysis, NamesWhatAPlaneLeavesFree) {
+  Vector6d motion;
+  motion << 0.01, -0.02, 0.03, 0.1, -0.2, 0.05;
+  const DegeneracyAnalysis analysis(systemOf(planes({{0, 0, 1}}), motion), kBox, 0.005);
+  EXPECT_EQ(analysis.freeDirections(), 3);
+  EXPECT_NEAR(analysis.smallestEigenvalue(), 0.0, 1e-9);
+  const std::string names = analysis.freeDirectionNames();
+  EXPECT_NE(names.find("rotating about z"), std::string::npos) << names;
+  EXPECT_NE(names.find("sliding along"), std::string::npos) << names;
+  // The motion found moves the plane as the true one does, and nothing within it.
+  const Vector6d found = analysis.solve();
+  EXPECT_NEAR(found(0), motion(0), 1e-9);
+  EXPECT_NEAR(found(1), motion(1), 1e-9);
+  EXPECT_NEAR(found(5), motion(5), 1e-9);
+  EXPECT_NEAR(found(2), 0.0, 1e-9);
+}
+
+TEST(DegeneracyAnalysis, TwoPlanesLeaveOneDirection) {
+  const DegeneracyAnalysis analysis(systemOf(planes({{0, 1, 0}, {0, 0, 1}}), Vector6d::Ones() * 0.01), kBox, 0.005);
+  EXPECT_EQ(analysis.freeDirectionNames(), "sliding along x");
+}
+
+// A wall, and a prior that was measured: along the wall the pose is the prior's, across it that of geometry.
+TEST(IcpTracker, AMeasuredPriorFillsWhatAPlaneLeavesFree) {
+  const CameraIntrinsics camera = cameraOfWidth(320);
+  const Scene wall({plane({0, 0, 1.5}, {0, 0, -1}, Material())});
+  const ModelView view = Sight(camera, frameOfScene(wall, camera, Pose::Identity())).asView(Pose::Identity());
+  Pose truth = Pose::Identity();
+  truth.translation() << 0.02, -0.01, 0.01;
+  MotionPrior prior{truth, Matrix6d(1e-6 * Matrix6d::Identity())};
+  prior.T_W_D.translation().z() = 0.0;
+  IcpTracker tracker(compute(), {}, camera);
+  StageTimers timers;
+  const Sight sight(camera, frameOfScene(wall, camera, truth));
+  const TrackingResult result = tracker.track(sight.depth(), view, prior, timers);
+  ASSERT_EQ(result.status, TrackingStatus::kDegenerate) << result.reason;
+  EXPECT_NE(result.reason.find("sliding along"), std::string::npos) << result.reason;
+  EXPECT_LT((result.T_W_D.translation() - truth.translation()).norm(), 0.001) << result.T_W_D.translation();
+  EXPECT_GT(result.covariance(3, 3), 10.0 * result.covariance(5, 5));
 }
 
 TEST(IcpTracker, RecoversAKnownMotion) {
@@ -206,7 +264,7 @@ TEST(IcpTracker, LostBeforeAWall) {
     const Scene wall({plane(Eigen::Vector3d(0, 0, 1.5), -Eigen::Vector3d::UnitZ(), Material())});
     const RgbdFrame frame = frameOfScene(wall, camera, T_W_D);
     const ModelView view = Sight(camera, frame).asView(T_W_D);
-    expectLost(track(Sight(camera, frame), view, T_W_D), "the geometry seen does not determine the motion");
+    expectLost(track(Sight(camera, frame), view, T_W_D), "the geometry seen leaves free");
   }
 }
 
@@ -219,7 +277,7 @@ TEST(IcpTracker, PosesStayOrthonormalOverManyFrames) {
   const Sight sight(camera, frameOfRoom(camera, start));
   ModelView view = sight.asView(start);
   for (int i = 0; i < 200; ++i) {
-    const TrackingResult result = tracker.track(sight.depth(), view, view.T_W_D, timers);
+    const TrackingResult result = tracker.track(sight.depth(), view, {view.T_W_D, std::nullopt}, timers);
     ASSERT_EQ(result.status, TrackingStatus::kTracking) << i << " " << result.reason;
     view.T_W_D = result.T_W_D;
   }

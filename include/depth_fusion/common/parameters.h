@@ -1,7 +1,6 @@
 // One table of parameters a stage; loading, validation, printing and documentation all come from it.
 #pragma once
 
-#include <map>
 #include <string>
 #include <variant>
 #include <vector>

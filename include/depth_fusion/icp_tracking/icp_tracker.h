@@ -66,7 +66,7 @@ class IcpTracker {
   ~IcpTracker();
 
   // Aligns the frame to the view, coarse to fine, starting from the prior. A prior with a covariance takes part in the
-  // solution and fills the directions that geometry leaves free; without one, those stay as the prior guesses.
+  // solution and fills the directions that geometry leaves free; without one, free directions mean that it is lost.
   TrackingResult track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior, StageTimers& timers);
 
  private:

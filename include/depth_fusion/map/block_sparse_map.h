@@ -15,7 +15,7 @@ struct MapParameters {
   float voxel_size_m = 0.005f;
   int blocks_per_axis = 256;
   int block_size = 8;
-  float truncation_m = 0.02f;
+  float truncation_m = 0.0f;  // 0 = four voxels
   int pool_mib = 512;
 
   ParameterTable table();
@@ -53,6 +53,7 @@ class BlockSparseMap {
   void release(const std::vector<int>& slots);
 
   Usage usage() const;
+  // With the truncation in metres also where it was given as 0.
   const MapParameters& parameters() const { return parameters_; }
   // Slots [0, slotBound()) have been in use at some time.
   int slotBound() const { return slot_bound_; }

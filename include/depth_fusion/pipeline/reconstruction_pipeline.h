@@ -1,8 +1,6 @@
 // One frame's way through all the stages.
 #pragma once
 
-#include <memory>
-
 #include "depth_fusion/icp_tracking/icp_tracker.h"
 #include "depth_fusion/model_view/model_view.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
@@ -51,7 +49,8 @@ class ReconstructionPipeline {
   MotionPrior prior(const RgbdFrame& frame);
   // The first pose, if the frame has enough depth for the next one to be tracked against.
   TrackingResult begin(const RgbdFrame& frame) const;
-  FusionResult fuse(const DepthFrame& depth, const Pose& T_W_D);
+  // Lost if nothing could be fused.
+  void fuse(const RgbdFrame& frame, const DepthFrame& depth, FrameResult& result);
 
   ComputeContext& compute_;
   PipelineParameters parameters_;

@@ -11,6 +11,7 @@
 namespace depth_fusion {
 
 struct TextureOdometryParameters {
+  bool enabled = true;
   int levels = 3;
   int cell_size_px = 40;
   int features_per_cell = 3;

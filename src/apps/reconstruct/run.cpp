@@ -91,6 +91,7 @@ void Run::fuseRecording() {
     showProgress(false);
   }
   if (pipeline_) showProgress(true);
+  if (interrupted) complain("interrupted; the frames so far are written");
 }
 
 std::optional<RgbdFrame> Run::nextFrame() {
@@ -127,7 +128,7 @@ void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
     return;
   }
   ++counts_.tracked;
-  status_ = "tracking";
+  status_ = result.tracking.status == TrackingStatus::kDegenerate ? "degenerate: " + result.tracking.reason : "tracking";
   trajectory_.push_back({frame.stamp_s, result.tracking.T_W_D});
   if (result.fusion.blocks_allocated < result.fusion.blocks_requested && !pool_was_full_) {
     pool_was_full_ = true;
