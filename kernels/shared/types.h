@@ -45,6 +45,14 @@ typedef struct {
   float min_range_m, max_range_m;
 } RangeArgs;
 
+// The sensor's motion in its own frame, and when the rows of its rolling shutter are exposed: the first readout_s before
+// the last, the last stamp_delay_s before the stamp.
+typedef struct {
+  float rotation_rad_s[3];
+  float velocity_m_s[3];
+  float readout_s, stamp_delay_s;
+} SensorMotionArgs;
+
 // Bilateral filter of radius 2: weights of columns and rows 0, 1 and 2 away, and the depth difference, in standard
 // deviations of the sensor's noise, at which a neighbour counts no more.
 typedef struct {

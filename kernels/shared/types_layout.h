@@ -24,6 +24,11 @@
   MEMBER(RangeArgs, unit_m)                  \
   MEMBER(RangeArgs, min_range_m)             \
   MEMBER(RangeArgs, max_range_m)             \
+  STRUCT(SensorMotionArgs)                   \
+  MEMBER(SensorMotionArgs, rotation_rad_s)   \
+  MEMBER(SensorMotionArgs, velocity_m_s)     \
+  MEMBER(SensorMotionArgs, readout_s)        \
+  MEMBER(SensorMotionArgs, stamp_delay_s)    \
   STRUCT(BilateralArgs)                      \
   MEMBER(BilateralArgs, spatial_weights)     \
   MEMBER(BilateralArgs, cutoff_sigmas)       \

@@ -49,6 +49,9 @@ void addOptions(CLI::App& app, RunOptions& options, std::vector<double>& intrins
   app.add_option("--intrinsics", intrinsics, "fx,fy,cx,cy of the depth camera, instead of the recording's")
       ->delimiter(',')
       ->expected(4);
+  app.add_option("--camera", options.camera_file,
+                 "camera file in place of the recording's: camera.yaml, or a calibration of ROS's camera_calibration, "
+                 "whose lens distortion is taken out");
   app.add_option("--params", options.parameter_file, "YAML file of `stage: {name: value}`; see --print-params");
   app.add_option("--trajectory", options.trajectory_file, "fuse at these poses (TUM format, or a folder that holds poses) instead of tracking");
   app.add_option("--max-frames", options.max_frames, "stop after so many frames")
@@ -80,6 +83,7 @@ int run(int argc, char** argv) {
     loadParameterFile(options.parameters.table(), options.parameter_file);
     CLI11_PARSE(app, argc, argv);
   }
+  if (!options.camera_file.empty()) readCamera(options.camera_file, options.recording);
   if (!intrinsics.empty()) options.recording.intrinsics = parseIntrinsics(intrinsics);
 
   if (options.device == "list") {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -11,22 +10,47 @@
 #include "icp_tracking/icp_tracking_kernels.h"
 
 namespace depth_fusion {
+
+// A prior in the frame of the system, M.
+struct IcpTracker::SystemPrior {
+  Pose T_M_D;
+  std::optional<Matrix6d> information;
+};
+
+// Where the iterations have come to.
+struct IcpTracker::Alignment {
+  Pose T_M_D;
+  IcpSystem system;  // of the last iteration, as the members below
+  Matrix6d covariance = Matrix6d::Identity();
+  std::string free_directions;
+  double smallest_eigenvalue = 0.0;
+  int iterations = 0;
+};
+
 namespace {
 
 // Why the result is not to be trusted, or nothing.
-std::string lostReason(const TrackingResult& result, const IcpSystem& system, const Pose& T_prior_D,
+std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker::SystemPrior& prior,
                        const IcpTrackingParameters& parameters) {
+  const IcpSystem& system = alignment.system;
+  const double fraction = system.source_points > 0.0 ? system.inliers / system.source_points : 0.0;
+  const Pose T_prior_D = prior.T_M_D.inverse() * alignment.T_M_D;
   std::ostringstream reason;
-  if (system.source_points < parameters.min_inliers) {
+  if (system.source_points < 1.0) {
+    reason << "no points with depth and normal";
+  } else if (system.inliers < 6.0) {
+    reason << "no point matches the view";
+  } else if (system.source_points < parameters.min_inliers) {
     reason << "only " << system.source_points << " points with depth and normal";
-  } else if (result.inliers < parameters.min_inliers || result.inlier_fraction < parameters.min_inlier_fraction) {
-    reason << "only " << result.inliers << " inliers, " << std::lround(100.0 * result.inlier_fraction)
-           << " % of the points";
-  } else if (!(result.rmse_m <= parameters.max_rmse_m)) {
-    reason << "rmse " << result.rmse_m << " m";
+  } else if (system.inliers < parameters.min_inliers || fraction < parameters.min_inlier_fraction) {
+    reason << "only " << system.inliers << " inliers, " << std::lround(100.0 * fraction) << " % of the points";
+  } else if (!(system.rmse() <= parameters.max_rmse_m)) {
+    reason << "rmse " << system.rmse() << " m";
   } else if (T_prior_D.translation().norm() > parameters.max_translation_m ||
              rotationAngle(T_prior_D) > parameters.max_rotation_rad) {
     reason << "jump of " << T_prior_D.translation().norm() << " m, " << rotationAngle(T_prior_D) << " rad";
+  } else if (!alignment.free_directions.empty() && !prior.information) {
+    reason << "the geometry seen leaves free " << alignment.free_directions << ", and no texture helps";
   }
   return reason.str();
 }
@@ -60,14 +84,8 @@ Eigen::AlignedBox3d spreadBox(const DepthLevel& coarsest, const Pose& T_M_D) {
   return {mean - half_diagonal, mean + half_diagonal};
 }
 
-// A prior in the frame of the system, M.
-struct SystemPrior {
-  Pose T_M_D;
-  std::optional<Matrix6d> information;
-};
-
-SystemPrior toSystem(const MotionPrior& prior, const Pose& T_M_W) {
-  SystemPrior result{orthonormalized(T_M_W * prior.T_W_D), std::nullopt};
+IcpTracker::SystemPrior toSystem(const MotionPrior& prior, const Pose& T_M_W) {
+  IcpTracker::SystemPrior result{orthonormalized(T_M_W * prior.T_W_D), std::nullopt};
   if (!prior.covariance) return result;
   const Matrix6d to_system = adjoint(T_M_W);
   result.information = Matrix6d(to_system * *prior.covariance * to_system.transpose()).inverse();
@@ -88,7 +106,7 @@ IcpSystem weighed(const IcpSystem& system, double correlated) {
   return result;
 }
 
-Solution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const SystemPrior& prior, double correlated) {
+Solution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const IcpTracker::SystemPrior& prior, double correlated) {
   const IcpSystem system = weighed(analysis.constrained(), correlated);
   if (!prior.information) return {analysis.solve(), system.hessian.inverse()};
   const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
@@ -106,7 +124,9 @@ ParameterTable IcpTrackingParameters::table() {
       {"fine_iterations", &fine_iterations, 1, 100, "most iterations at full size"},
       {"coarse_distance_m", &coarse_distance_m, 1e-4, 10.0, "largest distance of a match at a quarter of the size"},
       {"fine_distance_m", &fine_distance_m, 1e-4, 10.0, "largest distance of a match at full size"},
-      {"max_normal_angle_rad", &max_normal_angle_rad, 0.01, 1.5707, "largest angle between the normals of a match"},
+      {"coarse_normal_angle_rad", &coarse_normal_angle_rad, 0.01, 1.5707,
+       "largest angle between the normals of a match at a quarter of the size"},
+      {"fine_normal_angle_rad", &fine_normal_angle_rad, 0.01, 1.5707, "the same at full size"},
       {"huber_sigmas", &huber_sigmas, 0.1, 1000.0,
        "residual, in standard deviations of the sensor, from which a match's weight falls"},
       {"degeneracy_threshold", &degeneracy_threshold, 0.0, 1.0,
@@ -132,59 +152,64 @@ IcpTracker::IcpTracker(ComputeContext& compute, const IcpTrackingParameters& par
 
 IcpTracker::~IcpTracker() = default;
 
+MatchGates IcpTracker::gatesAt(int level) const {
+  const float coarseness = static_cast<float>(level) / (DepthPreprocessor::kLevels - 1);
+  const auto between = [&](float fine, float coarse) { return fine * std::pow(coarse / fine, coarseness); };
+  return {between(parameters_.fine_distance_m, parameters_.coarse_distance_m),
+          std::cos(between(parameters_.fine_normal_angle_rad, parameters_.coarse_normal_angle_rad)),
+          parameters_.huber_sigmas};
+}
+
+bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView& view, const SystemPrior& prior,
+                            const Eigen::AlignedBox3d& box, Alignment& alignment) {
+  // What geometry says weakly is worth more than no measurement.
+  const double threshold = parameters_.degeneracy_threshold * (prior.information ? 1.0 : 0.1);
+  const int iterations[] = {parameters_.fine_iterations, parameters_.middle_iterations, parameters_.coarse_iterations};
+  for (int i = 0; i < iterations[level]; ++i) {
+    alignment.system =
+        kernels_->accumulateSystem(frame.levels[level], view, alignment.T_M_D, gatesAt(level), partial_sums_);
+    ++alignment.iterations;
+    if (alignment.system.inliers < 6.0) return false;
+    const DegeneracyAnalysis analysis(alignment.system, box, threshold);
+    const Solution solution = solve(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
+    alignment.T_M_D = poseFromTwist(solution.twist) * alignment.T_M_D;
+    alignment.covariance = solution.covariance;
+    const bool converged = solution.twist.head<3>().norm() < parameters_.convergence_rad &&
+                           solution.twist.tail<3>().norm() < parameters_.convergence_m;
+    if (!converged && i + 1 < iterations[level]) continue;
+    alignment.free_directions = analysis.freeDirectionNames();
+    alignment.smallest_eigenvalue = analysis.smallestEigenvalue();
+    break;
+  }
+  return true;
+}
+
 TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior,
                                  StageTimers& timers) {
   const StageTimers::Scope timer(timers, "icp_tracking");
   const SystemPrior system_prior = toSystem(prior, view.T_W_D.inverse());
   const Eigen::AlignedBox3d box = spreadBox(frame.levels.back(), system_prior.T_M_D);
-  const std::array<int, 3> iterations = {parameters_.fine_iterations, parameters_.middle_iterations,
-                                         parameters_.coarse_iterations};
-  const float distance_ratio = std::sqrt(parameters_.coarse_distance_m / parameters_.fine_distance_m);
-
-  // What geometry says weakly is worth more than no measurement.
-  const double threshold = parameters_.degeneracy_threshold * (system_prior.information ? 1.0 : 0.1);
+  Alignment alignment;
+  alignment.T_M_D = system_prior.T_M_D;
+  bool matched = true;
+  for (int level = static_cast<int>(frame.levels.size()) - 1; level >= 0 && matched; --level) {
+    matched = alignLevel(level, frame, view, system_prior, box, alignment);
+  }
 
   TrackingResult result;
-  IcpSystem system;
-  Pose T_M_D = system_prior.T_M_D;
-  for (int level = static_cast<int>(frame.levels.size()) - 1; level >= 0; --level) {
-    const MatchGates gates{parameters_.fine_distance_m * std::pow(distance_ratio, static_cast<float>(level)),
-                           std::cos(parameters_.max_normal_angle_rad), parameters_.huber_sigmas};
-    for (int i = 0; i < iterations[level]; ++i) {
-      system = kernels_->accumulateSystem(frame.levels[level], view, T_M_D, gates, partial_sums_);
-      ++result.iterations;
-      if (system.inliers < 6.0) {
-        result.reason = system.source_points > 0.0 ? "no point matches the view" : "no points with depth and normal";
-        return result;
-      }
-      const DegeneracyAnalysis analysis(system, box, threshold);
-      const Solution solution = solve(analysis, T_M_D, system_prior, parameters_.correlated_points);
-      T_M_D = poseFromTwist(solution.twist) * T_M_D;
-      result.reason = analysis.freeDirectionNames();
-      result.smallest_eigenvalue = analysis.smallestEigenvalue();
-      result.covariance = solution.covariance;
-      if (solution.twist.head<3>().norm() < parameters_.convergence_rad &&
-          solution.twist.tail<3>().norm() < parameters_.convergence_m) {
-        break;
-      }
-    }
-  }
-  if (!result.reason.empty() && !system_prior.information) {
-    result.reason = "the geometry seen leaves free " + result.reason + ", and no texture helps";
-    return result;
-  }
-  result.inliers = static_cast<int>(system.inliers);
-  result.inlier_fraction = system.source_points > 0.0 ? system.inliers / system.source_points : 0.0;
-  result.rmse_m = system.rmse();
-  result.T_W_D = orthonormalized(view.T_W_D * T_M_D);
+  result.iterations = alignment.iterations;
+  result.inliers = static_cast<int>(alignment.system.inliers);
+  const double points = alignment.system.source_points;
+  result.inlier_fraction = points > 0.0 ? alignment.system.inliers / points : 0.0;
+  result.rmse_m = alignment.system.rmse();
+  result.smallest_eigenvalue = alignment.smallest_eigenvalue;
+  result.T_W_D = orthonormalized(view.T_W_D * alignment.T_M_D);
   const Matrix6d to_world = adjoint(view.T_W_D);
-  result.covariance = to_world * result.covariance * to_world.transpose();
-  const std::string lost = lostReason(result, system, system_prior.T_M_D.inverse() * T_M_D, parameters_);
-  if (!lost.empty()) {
-    result.reason = lost;
-  } else {
-    result.status = result.reason.empty() ? TrackingStatus::kTracking : TrackingStatus::kDegenerate;
-  }
+  result.covariance = to_world * alignment.covariance * to_world.transpose();
+  result.reason = lostReason(alignment, system_prior, parameters_);
+  if (!result.reason.empty()) return result;
+  result.reason = alignment.free_directions;
+  result.status = result.reason.empty() ? TrackingStatus::kTracking : TrackingStatus::kDegenerate;
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 
 #include <cmath>
+#include <utility>
 
 namespace depth_fusion {
 namespace {
@@ -19,6 +20,14 @@ Eigen::Vector3d windowCentre(const RgbdFrame& frame, const PreprocessingParamete
   return T_W_D * Eigen::Vector3d(0.0, 0.0, ahead_m);
 }
 
+// A longer gap says nothing about how fast the sensor moves now.
+constexpr double kMaxVelocityGap_s = 0.25;
+
+Vector6d velocityOver(const Pose& T_before_now, double seconds) {
+  if (!(seconds > 0.0 && seconds < kMaxVelocityGap_s)) return Vector6d::Zero();
+  return twistFromPose(T_before_now) / seconds;
+}
+
 }  // namespace
 
 ParameterTable PipelineParameters::table() {
@@ -26,7 +35,8 @@ ParameterTable PipelineParameters::table() {
   for (const auto& [stage, table] :
        {std::make_pair("map", map.table()), std::make_pair("preprocessing", preprocessing.table()),
         std::make_pair("texture_odometry", texture_odometry.table()),
-        std::make_pair("icp_tracking", icp_tracking.table()), std::make_pair("tsdf_fusion", tsdf_fusion.table()),
+        std::make_pair("icp_tracking", icp_tracking.table()),
+        std::make_pair("relocalisation", relocalisation.table()), std::make_pair("tsdf_fusion", tsdf_fusion.table()),
         std::make_pair("surface_mesh", surface_mesh.table())}) {
     const ParameterTable rows = withPrefix(stage, table);
     all.insert(all.end(), rows.begin(), rows.end());
@@ -42,6 +52,7 @@ ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const Pi
       preprocessor_(compute, parameters.preprocessing, camera),
       odometry_(parameters.texture_odometry),
       tracker_(compute, parameters.icp_tracking, camera),
+      relocaliser_(parameters.relocalisation),
       fusion_(compute, map_, parameters.tsdf_fusion),
       renderer_(compute, map_, camera) {
   parameters_.map = map_.parameters();
@@ -50,21 +61,25 @@ ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const Pi
 FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
   const StageTimers::Scope timer(timers_, "frame");
   FrameResult result;
+  const MotionPrior prior = predict(frame);
   const DepthFrame& depth = preprocess(frame);
-  const MotionPrior motion = prior(frame);
-  result.tracking = view_ == nullptr ? begin(frame) : tracker_.track(depth, *view_, motion, timers_);
-  if (result.tracking.status == TrackingStatus::kLost) return result;
-  fuse(frame, depth, result);
-  if (result.tracking.status == TrackingStatus::kLost) return result;
-  previous_ = {result.tracking.T_W_D, std::nullopt};
-  view_ = &renderer_.render(result.tracking.T_W_D, parameters_.preprocessing.min_range_m,
-                            parameters_.preprocessing.max_range_m, timers_);
+  result.tracking = track(frame, depth, prior);
+  if (result.tracking.status != TrackingStatus::kLost) fuse(frame, depth, result);
+  lost_ = result.tracking.status == TrackingStatus::kLost;
+  if (lost_) {
+    tracked_.reset();
+    return result;
+  }
+  follow(frame, result.tracking.T_W_D);
+  relocaliser_.add(odometry_.previous(), result.tracking.T_W_D);
+  view_ = &render(result.tracking.T_W_D);
   return result;
 }
 
 FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const Pose& T_W_D) {
   const StageTimers::Scope timer(timers_, "frame");
   FrameResult result;
+  follow(frame, T_W_D);
   const DepthFrame& depth = preprocess(frame);
   result.tracking.status = TrackingStatus::kTracking;
   result.tracking.T_W_D = T_W_D;
@@ -72,23 +87,56 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   return result;
 }
 
+MotionPrior ReconstructionPipeline::predict(const RgbdFrame& frame) {
+  const double since_last_s = frame.stamp_s - std::exchange(stamp_s_, frame.stamp_s);
+  if (!tracked_) velocity_.setZero();
+  if (!parameters_.texture_odometry.enabled) return {T_W_expected_, std::nullopt};
+  const StageTimers::Scope timer(timers_, "texture_odometry");
+  const TextureOdometryResult motion = odometry_.process(frame);
+  if (!motion.found) return {T_W_expected_, std::nullopt};
+  const MotionPrior prior = motion.priorFrom(T_W_expected_);
+  velocity_ = velocityOver(motion.T_previous_current, since_last_s);
+  T_W_expected_ = prior.T_W_D;
+  return prior;
+}
+
 const DepthFrame& ReconstructionPipeline::preprocess(const RgbdFrame& frame) {
   const StageTimers::Scope timer(timers_, "preprocessing");
-  const DepthFrame& depth = preprocessor_.process(frame);
+  const DepthFrame& depth = preprocessor_.process(frame, velocity_);
   compute_.finish();
   return depth;
 }
 
-MotionPrior ReconstructionPipeline::prior(const RgbdFrame& frame) {
-  if (!parameters_.texture_odometry.enabled) return previous_;
-  const StageTimers::Scope timer(timers_, "texture_odometry");
-  const TextureOdometryResult motion = odometry_.process(frame);
-  if (!motion.found) return previous_;
-  const Matrix6d to_world = adjoint(previous_.T_W_D);
-  previous_.T_W_D = orthonormalized(previous_.T_W_D * motion.T_previous_current);
-  MotionPrior result = previous_;
-  const double scale = std::pow(parameters_.texture_odometry.sigma_scale, 2);
-  result.covariance = scale * to_world * motion.covariance * to_world.transpose();
+TrackingResult ReconstructionPipeline::track(const RgbdFrame& frame, const DepthFrame& depth,
+                                             const MotionPrior& prior) {
+  if (view_ == nullptr) return begin(frame);
+  TrackingResult result;
+  if (!lost_) result = tracker_.track(depth, *view_, prior, timers_);
+  return result.status == TrackingStatus::kLost ? relocalise(depth, prior, result) : result;
+}
+
+TrackingResult ReconstructionPipeline::relocalise(const DepthFrame& depth, const MotionPrior& prior,
+                                                  const TrackingResult& lost) {
+  const StageTimers::Scope timer(timers_, "relocalisation");
+  const FrameFeatures& features = odometry_.previous();
+  for (const Keyframe* keyframe : relocaliser_.candidates(features)) {
+    const TextureOdometryResult motion = odometry_.match(keyframe->features, features, true);
+    if (!motion.found) continue;
+    const TrackingResult result = trackFrom(motion.priorFrom(keyframe->T_W_D), depth);
+    if (result.status != TrackingStatus::kLost) return result;
+  }
+  return lost_ ? trackFrom(prior, depth) : lost;
+}
+
+TrackingResult ReconstructionPipeline::trackFrom(const MotionPrior& prior, const DepthFrame& depth) {
+  TrackingResult result = tracker_.track(depth, render(prior.T_W_D), prior, timers_);
+  if (result.status == TrackingStatus::kLost ||
+      result.inlier_fraction >= parameters_.relocalisation.min_inlier_fraction) {
+    return result;
+  }
+  result.status = TrackingStatus::kLost;
+  result.reason = "still lost: only " + std::to_string(std::lround(100.0 * result.inlier_fraction)) +
+                  " % of the points fit the map";
   return result;
 }
 
@@ -110,6 +158,17 @@ void ReconstructionPipeline::fuse(const RgbdFrame& frame, const DepthFrame& dept
   if (result.fusion.blocks_updated > 0) return;
   tracking.status = TrackingStatus::kLost;
   tracking.reason = "no depth in range and in the map's window; see map/blocks_per_axis and preprocessing/max_range_m";
+}
+
+void ReconstructionPipeline::follow(const RgbdFrame& frame, const Pose& T_W_D) {
+  velocity_.setZero();
+  if (tracked_) velocity_ = velocityOver(tracked_->T_W_D.inverse() * T_W_D, frame.stamp_s - tracked_->stamp_s);
+  tracked_ = {frame.stamp_s, T_W_D};
+  T_W_expected_ = T_W_D;
+}
+
+const ModelView& ReconstructionPipeline::render(const Pose& T_W_D) {
+  return renderer_.render(T_W_D, parameters_.preprocessing.min_range_m, parameters_.preprocessing.max_range_m, timers_);
 }
 
 }  // namespace depth_fusion

@@ -13,6 +13,7 @@ DepthPreprocessingKernels::DepthPreprocessingKernels(ComputeContext& compute)
     : simd_width_(compute.impl().simd_width),
       from_u16_(compute, kFile, "depth_to_metres_u16"),
       from_f32_(compute, kFile, "depth_to_metres_f32"),
+      compensate_motion_(compute, "preprocessing/compensate_motion.cl", "compensate_motion"),
       bilateral_(compute, kFile, "filter_bilateral"),
       halve_(compute, kFile, "halve_depth"),
       normals_(compute, kFile, "compute_normals"),
@@ -25,6 +26,11 @@ size_t DepthPreprocessingKernels::columns(const CameraIntrinsics& camera) const 
 void DepthPreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input, DeviceBuffer& depth,
                                               const CameraIntrinsics& camera, const RangeArgs& range) {
   (is_u16 ? from_u16_ : from_f32_).run2d(columns(camera), camera.height, input, depth, toArgs(camera), range);
+}
+
+void DepthPreprocessingKernels::compensateMotion(const DeviceBuffer& depth, DeviceBuffer& compensated,
+                                                 const CameraIntrinsics& camera, const SensorMotionArgs& motion) {
+  compensate_motion_.run2d(columns(camera), camera.height, depth, compensated, toArgs(camera), motion);
 }
 
 void DepthPreprocessingKernels::filterBilateral(const DeviceBuffer& depth, DeviceBuffer& filtered,

@@ -1,4 +1,4 @@
-// Typed launches of kernels/preprocessing/depth_preprocessing.cl.
+// Typed launches of kernels/preprocessing/.
 #pragma once
 
 #include "compute/kernel.h"
@@ -16,6 +16,8 @@ class DepthPreprocessingKernels {
   // input: width * height values of 16 bits (or floats) and at least 16 more.
   void depthToMetres(bool is_u16, const DeviceBuffer& input, DeviceBuffer& depth, const CameraIntrinsics& camera,
                      const RangeArgs& range);
+  void compensateMotion(const DeviceBuffer& depth, DeviceBuffer& compensated, const CameraIntrinsics& camera,
+                        const SensorMotionArgs& motion);
   void filterBilateral(const DeviceBuffer& depth, DeviceBuffer& filtered, const CameraIntrinsics& camera,
                        const BilateralArgs& args);
   void halveDepth(const DepthLevel& level, DepthLevel& half, float cutoff_sigmas);
@@ -27,7 +29,7 @@ class DepthPreprocessingKernels {
   size_t columns(const CameraIntrinsics& camera) const;
 
   int simd_width_;
-  Kernel from_u16_, from_f32_, bilateral_, halve_, normals_, tiles_;
+  Kernel from_u16_, from_f32_, compensate_motion_, bilateral_, halve_, normals_, tiles_;
 };
 
 }  // namespace depth_fusion

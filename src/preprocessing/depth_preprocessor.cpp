@@ -11,11 +11,23 @@ namespace {
 
 std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
+SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParameters& parameters) {
+  SensorMotionArgs motion{{}, {}, parameters.readout_s, parameters.stamp_delay_s};
+  for (int i = 0; i < 3; ++i) {
+    motion.rotation_rad_s[i] = static_cast<float>(velocity[i]);
+    motion.velocity_m_s[i] = static_cast<float>(velocity[3 + i]);
+  }
+  return motion;
+}
+
 }  // namespace
 
 ParameterTable PreprocessingParameters::table() {
   return {{"min_range_m", &min_range_m, 0.0, 100.0, "nearer depth is left out"},
           {"max_range_m", &max_range_m, 0.01, 100.0, "farther depth is left out"},
+          {"readout_s", &readout_s, 0.0, 1.0,
+           "rolling shutter: from the first row's exposure to the last's; 0: all at once (global shutter)"},
+          {"stamp_delay_s", &stamp_delay_s, -1.0, 1.0, "from the last row's exposure to the stamp"},
           {"bilateral_sigma_px", &bilateral_sigma_px, 0.1, 10.0, "width of the bilateral filter in the image"},
           {"bilateral_cutoff_sigmas", &bilateral_cutoff_sigmas, 0.1, 100.0,
            "depth difference, in standard deviations of the sensor, at which a neighbour counts no more"},
@@ -36,6 +48,7 @@ DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const Preprocessin
   check(camera.valid(), "the depth camera's intrinsics are not valid; give them with --intrinsics fx,fy,cx,cy");
   const size_t pixels = static_cast<size_t>(camera.width) * camera.height;
   input_ = DeviceBuffer(compute, (pixels + 16) * sizeof(float), "the depth image");
+  skewed_depth_ = zeroImage(compute, camera, 1);
   result_.raw_depth = zeroImage(compute, camera, 1);
   const int tile = DepthPreprocessingKernels::kTile;
   result_.max_tiles = DeviceBuffer(
@@ -52,7 +65,7 @@ DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const Preprocessin
 
 DepthPreprocessor::~DepthPreprocessor() = default;
 
-const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame) {
+const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vector6d& velocity) {
   const CameraIntrinsics& camera = result_.levels[0].camera;
   const bool is_u16 = frame.depth.type() == CV_16UC1;
   check(is_u16 || frame.depth.type() == CV_32FC1, "depth images must hold 16-bit integers or 32-bit floats");
@@ -66,9 +79,13 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame) {
   BilateralArgs bilateral{{}, parameters_.bilateral_cutoff_sigmas};
   for (int i = 0; i < 3; ++i) bilateral.spatial_weights[i] = std::exp(-i * i / (2.0f * sigma_px * sigma_px));
 
+  const bool compensates = !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);
   kernels_->depthToMetres(
-      is_u16, input_, result_.raw_depth, camera,
+      is_u16, input_, compensates ? skewed_depth_ : result_.raw_depth, camera,
       {static_cast<float>(frame.depth_unit_m), parameters_.min_range_m, parameters_.max_range_m});
+  if (compensates) {
+    kernels_->compensateMotion(skewed_depth_, result_.raw_depth, camera, sensorMotion(velocity, parameters_));
+  }
   kernels_->maxTiles(result_.raw_depth, result_.max_tiles, camera);
   kernels_->filterBilateral(result_.raw_depth, result_.levels[0].depth, camera, bilateral);
   for (int i = 0; i < kLevels; ++i) {

@@ -24,7 +24,6 @@ double readNumber(const YAML::Node& root, const std::string& key) {
 }
 
 CameraFile parseCamera(const YAML::Node& root) {
-  check(root.IsMap(), "expected lines 'key: number' for width, height, fx, fy, cx, cy");
   for (const auto& entry : root) {
     const std::string key = entry.first.as<std::string>();
     check(kKeys.count(key) == 1, "unknown key '" + key + "'");
@@ -41,11 +40,36 @@ CameraFile parseCamera(const YAML::Node& root) {
   return file;
 }
 
+std::vector<double> readMatrix(const YAML::Node& root, const std::string& key, const std::set<size_t>& sizes) {
+  std::vector<double> numbers;
+  try {
+    numbers = root[key]["data"].as<std::vector<double>>();
+  } catch (const YAML::Exception&) {
+    throw Error("'" + key + "' has no 'data' with numbers");
+  }
+  check(sizes.count(numbers.size()) == 1, "'" + key + "' has " + std::to_string(numbers.size()) + " numbers");
+  return numbers;
+}
+
+CameraFile parseRosCalibration(const YAML::Node& root) {
+  CameraFile file;
+  const std::vector<double> k = readMatrix(root, "camera_matrix", {9});
+  file.camera = {static_cast<int>(readNumber(root, "image_width")),
+                 static_cast<int>(readNumber(root, "image_height")), k[0], k[4], k[2], k[5]};
+  const std::string model = root["distortion_model"].IsDefined() ? root["distortion_model"].as<std::string>() : "";
+  check(model == "plumb_bob" || model == "rational_polynomial",
+        "'distortion_model' is '" + model + "'; known are plumb_bob and rational_polynomial");
+  file.distortion = readMatrix(root, "distortion_coefficients", {4, 5, 8});
+  return file;
+}
+
 }  // namespace
 
 CameraFile readCameraFile(const std::string& path) {
   try {
-    return parseCamera(YAML::LoadFile(path));
+    const YAML::Node root = YAML::LoadFile(path);
+    check(root.IsMap(), "expected lines 'key: number' for width, height, fx, fy, cx, cy");
+    return root["camera_matrix"].IsDefined() ? parseRosCalibration(root) : parseCamera(root);
   } catch (const std::exception& error) {
     throw Error(path + ": " + error.what());
   }

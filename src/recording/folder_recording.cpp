@@ -4,8 +4,16 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/recording/trajectory_file.h"
+#include "recording/camera_file.h"
+#include "recording/rectified_recording.h"
 
 namespace depth_fusion {
+
+void readCamera(const std::string& path, RecordingOptions& options) {
+  const CameraFile file = readCameraFile(path);
+  options.intrinsics = file.camera;
+  options.distortion = file.distortion;
+}
 
 std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOptions& options) {
   std::error_code unreadable;
@@ -16,7 +24,7 @@ std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOp
   check(!unreadable, path + ": the folder cannot be read: " + unreadable.message());
   check(!is_empty, path + ": the folder is empty; give one in the TUM or 7-Scenes layout");
   if (hasTumLayout(path)) return openTumFolder(path, options);
-  if (hasSevenScenesLayout(path)) return openSevenScenesFolder(path, options);
+  if (hasSevenScenesLayout(path)) return rectified(openSevenScenesFolder(path, options), options.distortion);
   throw Error(
       path +
       ": is no recording; expected depth.txt (TUM layout) or frame-000000.depth.png (7-Scenes layout)");

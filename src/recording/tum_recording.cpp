@@ -6,6 +6,7 @@
 #include "recording/folder_recording.h"
 #include "recording/image_file.h"
 #include "recording/recording_intrinsics.h"
+#include "recording/rectified_recording.h"
 #include "recording/timed_files.h"
 
 namespace depth_fusion {
@@ -45,11 +46,15 @@ class TumRecording : public Recording {
       const CameraFile camera_file = readCameraFile(camera_path);
       depth_unit_m_ = 1.0 / camera_file.depth_scale;
       own = {camera_file.camera, "from camera.yaml"};
+      distortion_ = camera_file.distortion;
     } else if (depth_size == cv::Size(kBenchmarkDefault.width, kBenchmarkDefault.height)) {
       own = {kBenchmarkDefault, "the TUM benchmark's default"};
     }
     intrinsics_ = chooseIntrinsics(options.intrinsics, own, depth_size, folder);
+    if (options.intrinsics) distortion_ = options.distortion;
   }
+
+  const std::vector<double>& distortion() const { return distortion_; }
 
   std::optional<RgbdFrame> next() override {
     if (next_index_ == depth_files_.size()) return std::nullopt;
@@ -81,6 +86,7 @@ class TumRecording : public Recording {
   std::vector<TimedFile> color_files_;
   double depth_unit_m_ = 1.0 / kTumDepthScale;
   RecordingIntrinsics intrinsics_;
+  std::vector<double> distortion_;
   size_t next_index_ = 0;
 };
 
@@ -89,7 +95,9 @@ class TumRecording : public Recording {
 bool hasTumLayout(const std::string& folder) { return exists(folder + "/depth.txt"); }
 
 std::unique_ptr<Recording> openTumFolder(const std::string& folder, const RecordingOptions& options) {
-  return std::make_unique<TumRecording>(folder, options);
+  auto recording = std::make_unique<TumRecording>(folder, options);
+  const std::vector<double> distortion = recording->distortion();
+  return rectified(std::move(recording), distortion);
 }
 
 }  // namespace depth_fusion

@@ -17,12 +17,6 @@ constexpr double kMinDepth_m = 0.05;
 constexpr double kCauchyScale = 2.0;
 constexpr double kConvergence = 1e-7;
 
-Matrix3d crossMatrix(const Vector3d& v) {
-  Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return matrix;
-}
-
 Eigen::Matrix<double, 2, 3> projectionJacobian(const CameraIntrinsics& camera, const Vector3d& point) {
   const double inverse_z = 1.0 / point.z();
   Eigen::Matrix<double, 2, 3> jacobian;

@@ -86,16 +86,11 @@ int inlierCount(const std::optional<MotionEstimate>& motion) {
 
 // From colour camera frames to depth camera frames.
 void setMotion(const MotionEstimate& estimate, const FrameFeatures& reference, const FrameFeatures& current,
-               TextureOdometryResult& result) {
+               double sigma_scale, TextureOdometryResult& result) {
   const Pose T_D_C = reference.T_C_D.inverse();
   result.T_previous_current = orthonormalized(T_D_C * estimate.T_reference_current * current.T_C_D);
-  const Vector3d t = T_D_C.translation();
-  Eigen::Matrix3d cross;
-  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
-  Matrix6d adjoint = Matrix6d::Zero();
-  adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = T_D_C.linear();
-  adjoint.bottomLeftCorner<3, 3>() = cross * T_D_C.linear();
-  result.covariance = adjoint * estimate.covariance * adjoint.transpose();
+  const Matrix6d to_depth = sigma_scale * adjoint(T_D_C);
+  result.covariance = to_depth * estimate.covariance * to_depth.transpose();
 }
 
 }  // namespace
@@ -121,6 +116,11 @@ ParameterTable TextureOdometryParameters::table() {
        "depth error of an inlier in standard deviations of the sensor"},
       {"sigma_scale", &sigma_scale, 0.1, 1000.0,
        "factor on the motion's standard deviations, for errors that the matches share"}};
+}
+
+MotionPrior TextureOdometryResult::priorFrom(const Pose& T_W_previous) const {
+  const Matrix6d to_world = adjoint(T_W_previous);
+  return {orthonormalized(T_W_previous * T_previous_current), to_world * covariance * to_world.transpose()};
 }
 
 TextureOdometry::TextureOdometry(const TextureOdometryParameters& parameters) : parameters_(parameters) {
@@ -188,7 +188,7 @@ TextureOdometryResult TextureOdometry::match(const FrameFeatures& reference, con
         "only " + std::to_string(result.inliers) + " inliers of " + std::to_string(result.matches);
     return result;
   }
-  setMotion(*motion, reference, current, result);
+  setMotion(*motion, reference, current, parameters_.sigma_scale, result);
   result.found = true;
   return result;
 }

@@ -109,6 +109,52 @@ TEST(ReconstructionPipeline, LostFrameChangesNothingAndTheNextIsTracked) {
   EXPECT_FALSE(readMap(pipeline.map()) == before);
 }
 
+// Covered for a second, then back where it was a while before: keyframes say where that is.
+TEST(ReconstructionPipeline, ComesBackAfterABlackoutAndAJump) {
+  SimulationOptions options;
+  options.frames = 60;
+  options.speed = 2.0;
+  options.intrinsics = {320, 240, 262.5, 262.5, 159.5, 119.5};
+  std::vector<RgbdFrame> frames;
+  SimulatedRecording recording(options);
+  while (std::optional<RgbdFrame> frame = recording.next()) frames.push_back(std::move(*frame));
+  RgbdFrame black = frames.back();
+  for (cv::Mat* image : {&black.depth, &black.color}) *image = cv::Mat(image->size(), image->type(), cv::Scalar::all(0));
+
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), options.intrinsics);
+  for (const RgbdFrame& frame : frames) {
+    const FrameResult result = pipeline.processFrame(frame);
+    ASSERT_TRUE(isTracking(result)) << frame.stamp_s << " " << result.tracking.reason;
+  }
+  EXPECT_GT(pipeline.keyframeCount(), 2u);
+  const MapContent before = readMap(pipeline.map());
+  for (int i = 0; i < 30; ++i) expectLost(pipeline.processFrame(black), "no points with depth");
+  EXPECT_TRUE(readMap(pipeline.map()) == before);
+
+  const Pose jump = frames.back().T_W_D->inverse() * *frames[2].T_W_D;
+  ASSERT_GT(jump.translation().norm() + rotationAngle(jump), 0.5) << "out of reach of ICP alone";
+  const FrameResult back = pipeline.processFrame(frames[2]);
+  ASSERT_TRUE(isTracking(back)) << back.tracking.reason;
+  const Pose error = (frames[0].T_W_D->inverse() * *frames[2].T_W_D).inverse() * back.tracking.T_W_D;
+  EXPECT_LT(error.translation().norm(), 0.01);
+  EXPECT_LT(rotationAngle(error), 0.01);
+  EXPECT_GT(back.fusion.blocks_updated, 0u);
+}
+
+// Another place looks like none of the keyframes: lost it stays.
+TEST(ReconstructionPipeline, StaysLostInAnotherPlace) {
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[i])));
+  const MapContent before = readMap(pipeline.map());
+  SimulationOptions options;
+  options.scene = "cylinder";
+  options.frames = 12;
+  options.intrinsics = kCamera;
+  SimulatedRecording elsewhere(options);
+  while (const std::optional<RgbdFrame> frame = elsewhere.next()) expectLost(pipeline.processFrame(*frame), "");
+  EXPECT_TRUE(readMap(pipeline.map()) == before);
+}
+
 TEST(ReconstructionPipeline, TheSameFramesGiveTheSameBits) {
   ReconstructionPipeline a(compute(), pipelineParameters(), kCamera);
   ReconstructionPipeline b(compute(), pipelineParameters(), kCamera);

@@ -43,14 +43,18 @@ inline Vector6d twistFromPose(const Pose& motion) {
   return twist;
 }
 
+// The matrix that takes x to v x x.
+inline Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d cross;
+  cross << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return cross;
+}
+
 // Small twists in frame B, as seen from A: exp(adjoint(T_A_B) x) T_A_B = T_A_B exp(x), to first order.
 inline Matrix6d adjoint(const Pose& T_A_B) {
-  const Eigen::Vector3d t = T_A_B.translation();
-  Eigen::Matrix3d cross;
-  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
   Matrix6d result = Matrix6d::Zero();
   result.topLeftCorner<3, 3>() = result.bottomRightCorner<3, 3>() = T_A_B.linear();
-  result.bottomLeftCorner<3, 3>() = cross * T_A_B.linear();
+  result.bottomLeftCorner<3, 3>() = crossMatrix(T_A_B.translation()) * T_A_B.linear();
   return result;
 }
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "depth_fusion/common/parameters.h"
 #include "depth_fusion/common/stage_timers.h"
+#include "depth_fusion/geometry/motion_prior.h"
 #include "depth_fusion/model_view/model_view.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
 
@@ -18,7 +18,8 @@ struct IcpTrackingParameters {
   int fine_iterations = 5;
   float coarse_distance_m = 0.1f;
   float fine_distance_m = 0.04f;
-  float max_normal_angle_rad = 0.6f;
+  float coarse_normal_angle_rad = 0.6f;
+  float fine_normal_angle_rad = 0.6f;
   float huber_sigmas = 2.0f;
   float convergence_rad = 5e-5f;
   float convergence_m = 5e-5f;
@@ -39,13 +40,6 @@ enum class TrackingStatus {
   kLost
 };
 
-// What is known of the pose before ICP.
-struct MotionPrior {
-  Pose T_W_D = Pose::Identity();
-  // Of the twist (rotation, translation) applied to T_W_D on the left; none for a guess without a measurement.
-  std::optional<Matrix6d> covariance;
-};
-
 struct TrackingResult {
   TrackingStatus status = TrackingStatus::kLost;
   std::string reason;                         // why tracking is lost, or which directions are free; else empty
@@ -58,9 +52,13 @@ struct TrackingResult {
   int iterations = 0;
 };
 
+struct MatchGates;
+
 class IcpTracker {
  public:
   class Kernels;  // typed launches, private to the library and its tests
+  struct SystemPrior;
+  struct Alignment;
 
   IcpTracker(ComputeContext& compute, const IcpTrackingParameters& parameters, const CameraIntrinsics& camera);
   ~IcpTracker();
@@ -70,6 +68,11 @@ class IcpTracker {
   TrackingResult track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior, StageTimers& timers);
 
  private:
+  MatchGates gatesAt(int level) const;
+  // Iterates until it converges. False if hardly a point finds a match.
+  bool alignLevel(int level, const DepthFrame& frame, const ModelView& view, const SystemPrior& prior,
+                  const Eigen::AlignedBox3d& box, Alignment& alignment);
+
   IcpTrackingParameters parameters_;
   DeviceBuffer partial_sums_;
   std::unique_ptr<Kernels> kernels_;

@@ -1,4 +1,4 @@
-// Depth preprocessing: metres, bilateral filter, pyramid, normals.
+// Depth preprocessing: metres, motion compensation, bilateral filter, pyramid, normals.
 #pragma once
 
 #include <memory>
@@ -14,6 +14,8 @@ namespace depth_fusion {
 struct PreprocessingParameters {
   float min_range_m = 0.3f;
   float max_range_m = 5.0f;
+  float readout_s = 0.0f;
+  float stamp_delay_s = 0.0f;
   float bilateral_sigma_px = 1.5f;
   float bilateral_cutoff_sigmas = 3.0f;
   float max_relative_step = 0.05f;
@@ -29,7 +31,7 @@ struct DepthLevel {
 };
 
 struct DepthFrame {
-  DeviceBuffer raw_depth;          // metres in range, unfiltered, 0 = none; camera of levels[0]
+  DeviceBuffer raw_depth;          // metres in range, motion compensated, unfiltered, 0 = none; camera of levels[0]
   DeviceBuffer max_tiles;          // the largest raw depth of each 16x16 tile, row by row
   std::vector<DepthLevel> levels;  // filtered; full size first, each half the size of the one before
 };
@@ -42,14 +44,17 @@ class DepthPreprocessor {
                     const CameraIntrinsics& camera);
   ~DepthPreprocessor();
 
-  // The result stays valid until the next call. Throws Error if the depth's type or size is not the expected.
-  const DepthFrame& process(const RgbdFrame& frame);
+  // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s); with it the depth becomes that
+  // of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid until the next call.
+  // Throws Error if the depth's type or size is not the expected.
+  const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity = Vector6d::Zero());
 
  private:
   struct Kernels;
 
   PreprocessingParameters parameters_;
   DeviceBuffer input_;
+  DeviceBuffer skewed_depth_;
   DepthFrame result_;
   std::unique_ptr<Kernels> kernels_;
 };

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "depth_fusion/recording/rgbd_frame.h"
 
@@ -26,10 +27,17 @@ class Recording {
 
 struct RecordingOptions {
   std::optional<CameraIntrinsics> intrinsics;  // instead of the recording's own (width, height 0: the images')
+  // Lens distortion of the images: k1 k2 p1 p2 [k3 [k4 k5 k6]] (OpenCV's order, of plumb_bob and rational_polynomial);
+  // the frames come rectified. Counts with intrinsics only; without those, the recording's own camera file says it.
+  std::vector<double> distortion;
   double max_pairing_gap_s = 0.02;             // colour farther from its depth than this is left out
   std::string depth_topic;                     // bags only; empty: found by type and name
   std::string color_topic;                     // bags only; empty: found by type and name
 };
+
+// The intrinsics and the distortion of a camera file: this package's camera.yaml, or a calibration as ROS's
+// camera_calibration writes it. Throws Error naming the file and the key that is missing or wrong.
+void readCamera(const std::string& path, RecordingOptions& options);
 
 // Opens a folder in the TUM or the 7-Scenes layout, found out by looking. Throws Error for any other path.
 std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOptions& options);

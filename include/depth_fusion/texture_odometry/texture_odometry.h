@@ -5,6 +5,7 @@
 #include <string>
 
 #include "depth_fusion/common/parameters.h"
+#include "depth_fusion/geometry/motion_prior.h"
 #include "depth_fusion/recording/rgbd_frame.h"
 #include "depth_fusion/texture_odometry/frame_features.h"
 
@@ -40,6 +41,9 @@ struct TextureOdometryResult {
   int features = 0;                        // of the current frame
   int matches = 0;
   int inliers = 0;
+
+  // The current frame's pose, if the previous one's is known exactly.
+  MotionPrior priorFrom(const Pose& T_W_previous) const;
 };
 
 class TextureOdometry {

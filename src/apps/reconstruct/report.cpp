@@ -21,6 +21,17 @@ nlohmann::ordered_json statisticsJson(const std::vector<double>& samples_ms) {
   return {{"median", percentile(samples_ms, 0.5)}, {"p95", percentile(samples_ms, 0.95)}};
 }
 
+nlohmann::ordered_json trackingJson(const RunCounts& counts, const ReconstructionPipeline& pipeline) {
+  nlohmann::ordered_json losses = nlohmann::ordered_json::array();
+  for (const Loss& loss : counts.losses) {
+    losses.push_back({{"first_frame", loss.first_frame}, {"frames", loss.frames}, {"reason", loss.reason}});
+  }
+  return {{"states",
+           {{"tracking", counts.tracked - counts.degenerate}, {"degenerate", counts.degenerate}, {"lost", counts.lost}}},
+          {"losses", losses},
+          {"keyframes", pipeline.keyframeCount()}};
+}
+
 }  // namespace
 
 size_t peakRssBytes() {
@@ -43,6 +54,7 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
       {"parameters", parametersJson(pipeline.parameters())},
       {"frames",
        {{"read", counts.read}, {"tracked", counts.tracked}, {"lost", counts.lost}, {"unreadable", counts.unreadable}}},
+      {"tracking", trackingJson(counts, pipeline)},
       {"frame_ms", frame},
       {"stage_ms", stages},
       {"map",

@@ -2,16 +2,26 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 
 namespace depth_fusion {
 
+// Frames in a row that were lost.
+struct Loss {
+  size_t first_frame = 0;  // counted from 1
+  size_t frames = 0;
+  std::string reason;  // of the first
+};
+
 struct RunCounts {
   size_t read = 0;
   size_t tracked = 0;
+  size_t degenerate = 0;  // of the tracked, those whose pose is the prior's in some direction
   size_t lost = 0;
   size_t unreadable = 0;
+  std::vector<Loss> losses;
 };
 
 // Largest resident set of the process so far.

@@ -33,6 +33,9 @@ class Run {
   std::optional<RgbdFrame> nextFrame();
   void fuseFrame(const RgbdFrame& frame);
   void noteResult(const RgbdFrame& frame, const FrameResult& result);
+  void noteLoss(const std::string& reason);
+  // An event of the frame, on a line of its own.
+  void say(const std::string& event) const;
   void showProgress(bool last);
   // 0 before the first frame.
   double medianFrame_ms() const;
@@ -50,6 +53,7 @@ class Run {
   Trajectory trajectory_;
   RunCounts counts_;
   std::string status_;
+  bool is_lost_ = false;  // the frame before
   bool pool_was_full_ = false;
   bool failed_ = false;
 };
@@ -122,19 +126,40 @@ void Run::fuseFrame(const RgbdFrame& frame) {
 }
 
 void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
-  if (result.tracking.status == TrackingStatus::kLost) {
-    ++counts_.lost;
-    status_ = "lost: " + result.tracking.reason;
+  const TrackingResult& tracking = result.tracking;
+  if (tracking.status == TrackingStatus::kLost) {
+    noteLoss(tracking.reason);
     return;
   }
+  if (is_lost_) say("tracking again after " + std::to_string(counts_.losses.back().frames) + " lost frames");
+  is_lost_ = false;
   ++counts_.tracked;
-  status_ = result.tracking.status == TrackingStatus::kDegenerate ? "degenerate: " + result.tracking.reason : "tracking";
-  trajectory_.push_back({frame.stamp_s, result.tracking.T_W_D});
+  const bool degenerate = tracking.status == TrackingStatus::kDegenerate;
+  if (degenerate) ++counts_.degenerate;
+  status_ = degenerate ? "degenerate: " + tracking.reason : "tracking";
+  trajectory_.push_back({frame.stamp_s, tracking.T_W_D});
   if (result.fusion.blocks_allocated < result.fusion.blocks_requested && !pool_was_full_) {
     pool_was_full_ = true;
     complain("the voxel pool is full at frame " + std::to_string(counts_.read) +
              ": new surface is left out from here on; raise map/pool_mib or --voxel-size");
   }
+}
+
+void Run::noteLoss(const std::string& reason) {
+  ++counts_.lost;
+  status_ = "lost: " + reason;
+  if (!is_lost_) {
+    counts_.losses.push_back({counts_.read, 0, reason});
+    say(status_);
+  }
+  ++counts_.losses.back().frames;
+  is_lost_ = true;
+}
+
+void Run::say(const std::string& event) const {
+  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  std::cout << (terminal ? "\r" : "") << "frame " << counts_.read << ": " << event << (terminal ? "\033[K" : "")
+            << std::endl;
 }
 
 void Run::showProgress(bool last) {

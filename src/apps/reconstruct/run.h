@@ -12,6 +12,7 @@ struct RunOptions {
   std::string input;
   std::string output;
   std::string parameter_file;
+  std::string camera_file;
   std::string trajectory_file;
   std::string device;
   size_t max_frames = 0;  // 0 = all

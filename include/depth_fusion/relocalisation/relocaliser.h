@@ -1,0 +1,48 @@
+// Relocalisation: where the sensor may be, when tracking has lost it, from keyframes that look alike.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "depth_fusion/common/parameters.h"
+#include "depth_fusion/texture_odometry/frame_features.h"
+
+namespace depth_fusion {
+
+struct RelocalisationParameters {
+  float keyframe_distance_m = 0.2f;
+  float keyframe_angle_rad = 0.25f;
+  int max_keyframes = 200;
+  int max_candidates = 5;
+  float min_inlier_fraction = 0.5f;
+
+  ParameterTable table();
+};
+
+// A frame of the past that a new one can be matched to; some 200 kB.
+struct Keyframe {
+  FrameFeatures features;  // without the smoothed images
+  cv::Mat thumbnail;       // CV_32FC1, zero mean, unit norm
+  Pose T_W_D = Pose::Identity();
+};
+
+class Relocaliser {
+ public:
+  explicit Relocaliser(const RelocalisationParameters& parameters);
+
+  // Keeps the frame as a keyframe if it has features and no keyframe is near. When there are too many, the one that
+  // stands closest to another goes.
+  void add(const FrameFeatures& features, const Pose& T_W_D);
+  void reset() { keyframes_.clear(); }
+
+  // The keyframes whose thumbnails are most like the frame's, best first; at most max_candidates.
+  std::vector<const Keyframe*> candidates(const FrameFeatures& features) const;
+
+  const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+
+ private:
+  RelocalisationParameters parameters_;
+  std::vector<Keyframe> keyframes_;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,86 @@
+#include "depth_fusion/relocalisation/relocaliser.h"
+
+#include <algorithm>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+namespace depth_fusion {
+namespace {
+
+// Small enough to be blind to a shift by a tenth of the image.
+constexpr int kThumbnailWidth_px = 32;
+constexpr int kThumbnailHeight_px = 24;
+constexpr double kThumbnailBlur_px = 2.0;
+
+cv::Mat thumbnailOf(const FrameFeatures& features) {
+  cv::Mat thumbnail;
+  cv::resize(features.smoothed_levels.back(), thumbnail, cv::Size(kThumbnailWidth_px, kThumbnailHeight_px), 0.0, 0.0,
+             cv::INTER_AREA);
+  thumbnail.convertTo(thumbnail, CV_32F);
+  cv::GaussianBlur(thumbnail, thumbnail, cv::Size(), kThumbnailBlur_px);
+  thumbnail -= cv::mean(thumbnail)[0];
+  const double norm = cv::norm(thumbnail);
+  return norm > 0.0 ? cv::Mat(thumbnail / norm) : thumbnail;
+}
+
+// Below 1, the frames see much of the same.
+double separation(const Pose& T_W_A, const Pose& T_W_B, const RelocalisationParameters& parameters) {
+  const Pose T_A_B = T_W_A.inverse() * T_W_B;
+  return std::max(T_A_B.translation().norm() / parameters.keyframe_distance_m,
+                  rotationAngle(T_A_B) / parameters.keyframe_angle_rad);
+}
+
+size_t mostCrowded(const std::vector<Keyframe>& keyframes, const RelocalisationParameters& parameters) {
+  size_t most_crowded = 0;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < keyframes.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) {
+      const double distance = separation(keyframes[i].T_W_D, keyframes[k].T_W_D, parameters);
+      if (distance >= smallest) continue;
+      smallest = distance;
+      most_crowded = k;
+    }
+  }
+  return most_crowded;
+}
+
+}  // namespace
+
+ParameterTable RelocalisationParameters::table() {
+  return {{"keyframe_distance_m", &keyframe_distance_m, 0.001, 100.0, "between keyframes that see the same way"},
+          {"keyframe_angle_rad", &keyframe_angle_rad, 0.001, 3.1416, "between keyframes at the same place"},
+          {"max_keyframes", &max_keyframes, 0, 100000, "kept in memory, some 200 kB each; 0: no relocalisation"},
+          {"max_candidates", &max_candidates, 1, 1000, "keyframes that a lost frame is matched to"},
+          {"min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0,
+           "of a lost frame's points against the model view; still lost below"}};
+}
+
+Relocaliser::Relocaliser(const RelocalisationParameters& parameters) : parameters_(parameters) {
+  validate(parameters_.table());
+}
+
+void Relocaliser::add(const FrameFeatures& features, const Pose& T_W_D) {
+  if (!features.reason.empty() || parameters_.max_keyframes == 0) return;
+  for (const Keyframe& keyframe : keyframes_) {
+    if (separation(keyframe.T_W_D, T_W_D, parameters_) < 1.0) return;
+  }
+  keyframes_.push_back({features, thumbnailOf(features), T_W_D});
+  keyframes_.back().features.smoothed_levels.clear();
+  if (static_cast<int>(keyframes_.size()) <= parameters_.max_keyframes) return;
+  keyframes_.erase(keyframes_.begin() + mostCrowded(keyframes_, parameters_));
+}
+
+std::vector<const Keyframe*> Relocaliser::candidates(const FrameFeatures& features) const {
+  if (!features.reason.empty()) return {};
+  const cv::Mat thumbnail = thumbnailOf(features);
+  std::vector<std::pair<double, const Keyframe*>> ranked;
+  for (const Keyframe& keyframe : keyframes_) ranked.push_back({-thumbnail.dot(keyframe.thumbnail), &keyframe});
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<const Keyframe*> best;
+  for (const auto& [unlikeness, keyframe] : ranked) best.push_back(keyframe);
+  best.resize(std::min(best.size(), static_cast<size_t>(parameters_.max_candidates)));
+  return best;
+}
+
+}  // namespace depth_fusion
