@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "depth_fusion/evaluation/trajectory_error.h"
-#include "depth_fusion/recording/recording.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "support/apps.h"
@@ -22,21 +21,10 @@ struct RecordingCase {
   std::string name;
   size_t frames;
   double max_ate_m;
+  std::vector<std::string> options;  // of reconstruct
 };
 
 void PrintTo(const RecordingCase& recording, std::ostream* stream) { *stream << recording.name; }
-
-// The poses that the recording brings, frame by frame or in a file of their own.
-Trajectory truthOf(const std::string& folder) {
-  if (std::filesystem::exists(folder + "/groundtruth.txt"))
-    return readTrajectory(folder + "/groundtruth.txt");
-  Trajectory truth;
-  const auto recording = openFolder(folder, {});
-  while (const auto frame = recording->next()) {
-    if (frame->T_W_D) truth.push_back({frame->stamp_s, *frame->T_W_D});
-  }
-  return truth;
-}
 
 double areaOf(const TriangleMesh& mesh) {
   const auto position = [&](uint32_t vertex) { return mesh.vertices[vertex].position_W.cast<double>(); };
@@ -54,7 +42,9 @@ TEST_P(Recordings, no_frame_is_lost_and_memory_stays_in_bounds) {
   const std::string input = realDataFolder(recording.name);
   if (!std::filesystem::exists(input)) GTEST_SKIP() << input << " is not there";
   const TemporaryFolder folder;
-  const AppRun run = runApp("reconstruct", {"--input", input, "--output", folder.path()});
+  std::vector<std::string> arguments = {"--input", input, "--output", folder.path()};
+  arguments.insert(arguments.end(), recording.options.begin(), recording.options.end());
+  const AppRun run = runApp("reconstruct", arguments);
   ASSERT_EQ(run.status, 0) << run.errors;
 
   const nlohmann::json report = readReport(folder.path());
@@ -64,7 +54,7 @@ TEST_P(Recordings, no_frame_is_lost_and_memory_stays_in_bounds) {
   EXPECT_LE(report["peak_rss_bytes"].get<double>(), kMostBytes);
 
   const TrajectoryError error =
-      compareTrajectories(readTrajectory(folder / "trajectory.txt"), truthOf(input));
+      compareTrajectories(readTrajectory(folder / "trajectory.txt"), readPoses(input));
   EXPECT_GE(error.pairs.size(), recording.frames - 5);
   EXPECT_LE(error.ate_m.rmse, recording.max_ate_m);
 
@@ -77,9 +67,13 @@ TEST_P(Recordings, no_frame_is_lost_and_memory_stays_in_bounds) {
               report["frame_ms"]["median"].get<double>());
 }
 
+const std::vector<std::string> kKinect = {"--params", "cfg/kinect_v1.yaml"};
+const std::vector<std::string> kCalibratedKinect = {"--params", "cfg/kinect_v1.yaml", "--camera",
+                                                    "cfg/cameras/tum_freiburg1.yaml"};
+
 INSTANTIATE_TEST_SUITE_P(All, Recordings,
-                         testing::Values(RecordingCase{"tum_fr1_xyz", 500, 0.020},
-                                         RecordingCase{"redkitchen", 300, 0.035}));
+                         testing::Values(RecordingCase{"tum_fr1_xyz", 500, 0.011, kCalibratedKinect},
+                                         RecordingCase{"redkitchen", 300, 0.035, kKinect}));
 
 }  // namespace
 }  // namespace depth_fusion

@@ -1,0 +1,175 @@
+#include "apps/benchmark/tracking.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/benchmark/tracking_inputs.h"
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/evaluation/trajectory_error.h"
+#include "depth_fusion/surface_mesh/mesh_picture.h"
+#include "recording/text_file.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr double kWrong_m = 0.05;
+
+struct Variant {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> parameters;  // changed from the input's
+};
+
+// Without a weight, the prior is where ICP starts, and no more.
+const std::vector<Variant> kAblation = {
+    {"ICP", {{"texture_odometry/enabled", "false"}, {"icp_tracking/degeneracy_threshold", "0"}}},
+    {"ICP + texture", {{"texture_odometry/sigma_scale", "1000"}, {"icp_tracking/degeneracy_threshold", "0"}}},
+    {"ICP + texture + eigenvalues", {}}};
+
+const std::vector<Variant> kGates = {
+    {"all gates", {}},
+    {"no distance gate", {{"icp_tracking/coarse_distance_m", "10"}, {"icp_tracking/fine_distance_m", "10"}}},
+    {"no normal gate",
+     {{"icp_tracking/coarse_normal_angle_rad", "1.5707"}, {"icp_tracking/fine_normal_angle_rad", "1.5707"}}},
+    {"no robust loss", {{"icp_tracking/huber_sigmas", "1000"}}},
+    {"no inlier gates",
+     {{"icp_tracking/min_inlier_fraction", "0"}, {"icp_tracking/min_inliers", "6"}}},
+    {"no rmse gate", {{"icp_tracking/max_rmse_m", "1"}}},
+    {"no jump gate", {{"icp_tracking/max_translation_m", "100"}, {"icp_tracking/max_rotation_rad", "3.1416"}}},
+    {"no eigenvalue gate", {{"icp_tracking/degeneracy_threshold", "0"}}},
+    {"no relocalisation gate", {{"relocalisation/min_inlier_fraction", "0"}}},
+    {"no keyframes", {{"relocalisation/max_keyframes", "0"}}}};
+
+struct Outcome {
+  size_t frames = 0, lost = 0, degenerate = 0;
+  size_t wrong = 0;  // tracked, but farther than kWrong_m from the truth, by the first pose
+  TrajectoryError error;
+  double path_m = 0.0;
+  double drift_m = 0.0;  // the largest error by the first pose
+  double prior_ms = 0.0, icp_ms = 0.0;
+  TriangleMesh mesh;
+};
+
+double medianOf(const StageTimers& timers, const std::string& stage) {
+  const auto samples_ms = timers.samplesMs().find(stage);
+  return samples_ms == timers.samplesMs().end() ? 0.0 : percentile(samples_ms->second, 0.5);
+}
+
+double pathLength(const std::vector<PosePair>& pairs) {
+  double length_m = 0.0;
+  for (size_t i = 1; i < pairs.size(); ++i) {
+    length_m += (pairs[i].T_W_truth.translation() - pairs[i - 1].T_W_truth.translation()).norm();
+  }
+  return length_m;
+}
+
+void measure(const Trajectory& trajectory, const Trajectory& truth, Outcome& outcome) {
+  if (trajectory.size() < 3) return;
+  outcome.error = compareTrajectories(trajectory, truth);
+  const std::vector<PosePair>& pairs = outcome.error.pairs;
+  outcome.path_m = pathLength(pairs);
+  const Pose T_truth_estimate = pairs[0].T_W_truth * pairs[0].T_W_estimate.inverse();
+  for (const PosePair& pair : pairs) {
+    const double error_m =
+        ((T_truth_estimate * pair.T_W_estimate).translation() - pair.T_W_truth.translation()).norm();
+    outcome.drift_m = std::max(outcome.drift_m, error_m);
+    if (error_m > kWrong_m) ++outcome.wrong;
+  }
+}
+
+Outcome runVariant(ComputeContext& compute, const TrackingInput& input, const Variant& variant, bool with_mesh) {
+  PipelineParameters parameters = input.parameters;
+  for (const auto& [name, value] : variant.parameters) setParameter(parameters.table(), name, value);
+  const std::unique_ptr<Recording> recording = input.open();
+  std::unique_ptr<ReconstructionPipeline> pipeline;
+  Outcome outcome;
+  Trajectory trajectory;
+  while (const std::optional<RgbdFrame> frame = recording->next()) {
+    if (!pipeline) pipeline = std::make_unique<ReconstructionPipeline>(compute, parameters, frame->intrinsics);
+    const TrackingResult tracking = pipeline->processFrame(*frame).tracking;
+    ++outcome.frames;
+    if (tracking.status == TrackingStatus::kLost) {
+      ++outcome.lost;
+      continue;
+    }
+    if (tracking.status == TrackingStatus::kDegenerate) ++outcome.degenerate;
+    trajectory.push_back({frame->stamp_s, tracking.T_W_D});
+  }
+  check(pipeline != nullptr, input.name + " has no frames");
+  measure(trajectory, input.truth, outcome);
+  outcome.prior_ms = medianOf(pipeline->timers(), "texture_odometry");
+  outcome.icp_ms = medianOf(pipeline->timers(), "icp_tracking");
+  if (with_mesh) exportSurfaceMesh(compute, pipeline->map(), outcome.mesh);
+  return outcome;
+}
+
+std::string tableHead() {
+  return "| input | variant | frames | lost | degenerate | ATE RMSE, mm | drift, mm (% of the path) | wrong | prior + ICP, "
+         "ms |\n|---|---|---|---|---|---|---|---|---|\n";
+}
+
+std::string tableRow(const TrackingInput& input, const Variant& variant, const Outcome& outcome) {
+  char row[300];
+  std::snprintf(row, sizeof(row), "| %s | %s | %zu | %zu | %zu | %.2f | %.2f (%.2f) | %zu | %.1f + %.1f |\n",
+                input.name.c_str(), variant.name.c_str(), outcome.frames, outcome.lost, outcome.degenerate,
+                1000.0 * outcome.error.ate_m.rmse, 1000.0 * outcome.drift_m,
+                outcome.path_m > 0.0 ? 100.0 * outcome.drift_m / outcome.path_m : 0.0, outcome.wrong, outcome.prior_ms,
+                outcome.icp_ms);
+  return row;
+}
+
+// The variants' meshes side by side, all seen from where the last one is seen best.
+void drawMeshes(const std::string& path, const std::vector<Variant>& variants, const std::vector<Outcome>& outcomes) {
+  const CameraIntrinsics camera = pictureCamera(640, 480, CV_PI / 3.0);
+  if (outcomes.back().mesh.vertices.empty()) return;
+  const Pose T_W_C = viewOf(outcomes.back().mesh, camera, viewNames().front());
+  cv::Mat row;
+  for (size_t i = 0; i < variants.size(); ++i) {
+    cv::Mat picture = renderMesh(outcomes[i].mesh, camera, T_W_C);
+    cv::putText(picture, variants[i].name, {12, 28}, cv::FONT_HERSHEY_SIMPLEX, 0.8, {0, 0, 0}, 2, cv::LINE_AA);
+    row = i == 0 ? picture : [&] { cv::Mat both; cv::hconcat(row, picture, both); return both; }();
+  }
+  check(cv::imwrite(path, row, {cv::IMWRITE_JPEG_QUALITY, 85}), "picture " + path + " cannot be written");
+}
+
+void runBenchmark(TrackingBenchmark options) {
+  if (options.data.empty()) {
+    const char* folder = std::getenv("DEPTH_FUSION_DATA");
+    options.data = folder != nullptr ? folder : "../shared/data";
+  }
+  std::filesystem::create_directories(options.output);
+  ComputeContext compute(options.device);
+  const std::vector<Variant>& variants = options.gates ? kGates : kAblation;
+  std::string table = tableHead();
+  std::cout << table << std::flush;
+  for (const TrackingInput& input : trackingInputs(options)) {
+    std::vector<Outcome> outcomes;
+    for (const Variant& variant : variants) {
+      outcomes.push_back(runVariant(compute, input, variant, !options.gates));
+      table += tableRow(input, variant, outcomes.back());
+      std::cout << tableRow(input, variant, outcomes.back()) << std::flush;
+    }
+    if (!options.gates) drawMeshes(options.output + "/" + input.name + ".jpg", variants, outcomes);
+  }
+  writeText(options.output + (options.gates ? "/gates.md" : "/ablation.md"), table);
+}
+
+}  // namespace
+
+void addTrackingBenchmark(CLI::App& app, TrackingBenchmark& options) {
+  CLI::App* command = app.add_subcommand(
+      "tracking", "ICP / ICP + texture / ICP + texture + eigenvalues on scenes and recordings: a table, and the meshes");
+  command->add_option("--output", options.output, "folder for the table and the pictures")->capture_default_str();
+  command->add_option("--data", options.data, "folder of the real recordings [$DEPTH_FUSION_DATA or ../shared/data]");
+  command->add_option("--cfg", options.cfg, "folder of the sensors' parameter files")->capture_default_str();
+  command->add_option("--device", options.device, "OpenCL device, as of reconstruct");
+  command->add_option("--input", options.inputs, "only these inputs");
+  command->add_flag("--gates", options.gates, "what each gate brings and costs: one left out in turn");
+  command->callback([&options] { runBenchmark(options); });
+}
+
+}  // namespace depth_fusion

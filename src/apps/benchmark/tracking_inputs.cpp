@@ -1,0 +1,89 @@
+#include "apps/benchmark/tracking_inputs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/simulation/simulated_recording.h"
+
+namespace depth_fusion {
+namespace {
+
+TrackingInput simulated(const std::string& name, const std::string& scene, double linear_speed_m_s = 0.0,
+                        double turn_rate_deg_s = 0.0) {
+  SimulationOptions options;
+  options.scene = scene;
+  options.linear_speed_m_s = linear_speed_m_s;
+  options.turn_rate_deg_s = turn_rate_deg_s;
+  TrackingInput input;
+  input.name = name;
+  input.open = [options] { return std::make_unique<SimulatedRecording>(options); };
+  const SimulatedRecording recording(options);
+  for (int i = 0; i < options.frames; ++i) input.truth.push_back(recording.poseOf(i));
+  return input;
+}
+
+TrackingInput recorded(const std::string& name, const std::string& folder, const std::string& params,
+                       const std::string& camera) {
+  TrackingInput input;
+  input.name = name;
+  RecordingOptions options;
+  if (!camera.empty()) readCamera(camera, options);
+  input.open = [folder, options] { return openFolder(folder, options); };
+  input.truth = readPoses(folder);
+  loadParameterFile(input.parameters.table(), params);
+  return input;
+}
+
+TrackingInput atTenHertz(TrackingInput input) {
+  input.name += "_10hz";
+  input.open = [open = input.open] { return everyNth(open(), 3); };
+  return input;
+}
+
+TrackingInput withInterruption(TrackingInput input, const std::string& what, const Interruption& interruption) {
+  input.name += what;
+  input.open = [open = input.open, interruption] { return interrupted(open, interruption); };
+  input.truth = repeated(input.truth);
+  return input;
+}
+
+std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
+  std::vector<TrackingInput> inputs = {simulated("wall", "wall"),
+                                       simulated("floor_wall", "floor_wall"),
+                                       simulated("cylinder", "cylinder"),
+                                       simulated("white_room", "white_room"),
+                                       simulated("room_fast", "room", 0.5, 60.0)};
+  const std::string kinect = options.cfg + "/kinect_v1.yaml";
+  const std::string tum = options.data + "/tum_fr1_xyz", kitchen = options.data + "/redkitchen";
+  if (std::filesystem::exists(tum)) {
+    const TrackingInput desk = recorded("tum_fr1_xyz", tum, kinect, options.cfg + "/cameras/tum_freiburg1.yaml");
+    inputs.insert(inputs.end(), {desk, atTenHertz(desk), withInterruption(desk, "_blackout", {30, 100}),
+                                 withInterruption(desk, "_jump", {0, 100})});
+  }
+  if (std::filesystem::exists(kitchen)) inputs.push_back(recorded("redkitchen", kitchen, kinect, ""));
+  if (!std::filesystem::exists(tum) || !std::filesystem::exists(kitchen)) {
+    std::cout << "the real recordings are not all in " << options.data << "; see --data" << std::endl;
+  }
+  return inputs;
+}
+
+}  // namespace
+
+std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options) {
+  std::vector<TrackingInput> all = allInputs(options);
+  if (options.inputs.empty()) return all;
+  std::vector<TrackingInput> chosen;
+  for (const std::string& name : options.inputs) {
+    const auto input = std::find_if(all.begin(), all.end(), [&](const TrackingInput& i) { return i.name == name; });
+    std::string names;
+    for (const TrackingInput& known : all) names += (names.empty() ? "" : ", ") + known.name;
+    check(input != all.end(), "there is no input '" + name + "'; the inputs are: " + names);
+    chosen.push_back(*input);
+  }
+  return chosen;
+}
+
+}  // namespace depth_fusion

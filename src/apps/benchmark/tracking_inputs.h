@@ -1,0 +1,20 @@
+// What trackers are tried on: scenes that leave directions free, fast hands, real recordings, and those made harder.
+#pragma once
+
+#include "apps/benchmark/tracking.h"
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
+#include "recording/altered_recording.h"
+
+namespace depth_fusion {
+
+struct TrackingInput {
+  std::string name;
+  OpenRecording open;
+  Trajectory truth;
+  PipelineParameters parameters;
+};
+
+// Those of options.inputs, or all. Throws Error for a name that is not known.
+std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options);
+
+}  // namespace depth_fusion

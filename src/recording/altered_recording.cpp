@@ -1,0 +1,88 @@
+#include "recording/altered_recording.h"
+
+#include <algorithm>
+
+namespace depth_fusion {
+namespace {
+
+constexpr double kBlackFrameInterval_s = 1.0 / 30.0;
+
+class EveryNth : public Recording {
+ public:
+  EveryNth(std::unique_ptr<Recording> recording, size_t n) : recording_(std::move(recording)), n_(n) {}
+
+  std::optional<RgbdFrame> next() override {
+    std::optional<RgbdFrame> frame = recording_->next();
+    for (size_t i = 1; i < n_ && recording_->next(); ++i) continue;
+    return frame;
+  }
+  size_t frameCount() const override { return (recording_->frameCount() + n_ - 1) / n_; }
+  std::string description() const override {
+    return recording_->description() + ", one frame of " + std::to_string(n_);
+  }
+
+ private:
+  std::unique_ptr<Recording> recording_;
+  size_t n_;
+};
+
+class Interrupted : public Recording {
+ public:
+  Interrupted(const OpenRecording& open, const Interruption& interruption)
+      : recording_(open()), again_(open()), interruption_(interruption) {}
+
+  std::optional<RgbdFrame> next() override {
+    if (std::optional<RgbdFrame> frame = recording_->next()) {
+      last_ = *frame;
+      return frame;
+    }
+    if (black_ < interruption_.black_frames) return blackFrame();
+    if (repeated_++ == interruption_.repeated_frames) return std::nullopt;
+    std::optional<RgbdFrame> frame = again_->next();
+    if (frame) frame->stamp_s += kRepeatedLater_s;
+    return frame;
+  }
+  size_t frameCount() const override {
+    const size_t once = recording_->frameCount();
+    return once + interruption_.black_frames + std::min(once, interruption_.repeated_frames);
+  }
+  std::string description() const override {
+    return recording_->description() + ", then " + std::to_string(interruption_.black_frames) +
+           " black frames and its start";
+  }
+
+ private:
+  RgbdFrame blackFrame() {
+    RgbdFrame frame = last_;
+    frame.stamp_s += static_cast<double>(++black_) * kBlackFrameInterval_s;
+    frame.T_W_D.reset();
+    for (cv::Mat* image : {&frame.depth, &frame.color}) {
+      *image = cv::Mat(image->size(), image->type(), cv::Scalar::all(0));
+    }
+    return frame;
+  }
+
+  std::unique_ptr<Recording> recording_, again_;
+  Interruption interruption_;
+  RgbdFrame last_;
+  size_t black_ = 0;
+  size_t repeated_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Recording> everyNth(std::unique_ptr<Recording> recording, size_t n) {
+  return std::make_unique<EveryNth>(std::move(recording), n);
+}
+
+std::unique_ptr<Recording> interrupted(const OpenRecording& open, const Interruption& interruption) {
+  return std::make_unique<Interrupted>(open, interruption);
+}
+
+Trajectory repeated(const Trajectory& trajectory) {
+  Trajectory result = trajectory;
+  for (const StampedPose& pose : trajectory) result.push_back({pose.stamp_s + kRepeatedLater_s, pose.T_W_D});
+  return result;
+}
+
+}  // namespace depth_fusion

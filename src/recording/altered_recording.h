@@ -1,0 +1,29 @@
+// Recordings made harder, for benchmarks and tests.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "depth_fusion/geometry/pose.h"
+#include "depth_fusion/recording/recording.h"
+
+namespace depth_fusion {
+
+using OpenRecording = std::function<std::unique_ptr<Recording>()>;
+
+// Frames 0, n, 2n, ...
+std::unique_ptr<Recording> everyNth(std::unique_ptr<Recording> recording, size_t n);
+
+struct Interruption {
+  size_t black_frames = 30;      // without depth and light, 1/30 s apart
+  size_t repeated_frames = 100;  // from the recording's start
+};
+constexpr double kRepeatedLater_s = 1000.0;
+
+// The whole recording, then black frames, then a jump back to its start, kRepeatedLater_s later.
+std::unique_ptr<Recording> interrupted(const OpenRecording& open, const Interruption& interruption);
+
+// The poses of an interrupted recording.
+Trajectory repeated(const Trajectory& trajectory);
+
+}  // namespace depth_fusion

@@ -1,0 +1,142 @@
+// Tracking that holds: on scenes that leave directions free, with fast hands, and through blackouts and jumps.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "depth_fusion/evaluation/trajectory_error.h"
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
+#include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/simulation/simulated_recording.h"
+#include "recording/altered_recording.h"
+#include "support/real_data.h"
+#include "support/test_compute.h"
+
+namespace depth_fusion {
+namespace {
+
+struct Tracked {
+  Trajectory trajectory;
+  std::vector<size_t> lost;        // frames
+  size_t updated_while_lost = 0;  // blocks
+  TrajectoryError error;
+  double path_m = 0.0;
+};
+
+double pathLength(const Trajectory& trajectory) {
+  double length_m = 0.0;
+  for (size_t i = 1; i < trajectory.size(); ++i) {
+    length_m += (trajectory[i].T_W_D.translation() - trajectory[i - 1].T_W_D.translation()).norm();
+  }
+  return length_m;
+}
+
+Tracked track(Recording& recording, const Trajectory& truth, const PipelineParameters& parameters) {
+  Tracked result;
+  result.path_m = pathLength(truth);
+  std::unique_ptr<ReconstructionPipeline> pipeline;
+  for (size_t i = 0; const std::optional<RgbdFrame> frame = recording.next(); ++i) {
+    if (!pipeline) pipeline = std::make_unique<ReconstructionPipeline>(compute(), parameters, frame->intrinsics);
+    const FrameResult frame_result = pipeline->processFrame(*frame);
+    if (frame_result.tracking.status == TrackingStatus::kLost) {
+      result.lost.push_back(i);
+      result.updated_while_lost += frame_result.fusion.blocks_updated;
+    } else {
+      result.trajectory.push_back({frame->stamp_s, frame_result.tracking.T_W_D});
+    }
+  }
+  if (result.trajectory.size() > 3) result.error = compareTrajectories(result.trajectory, truth);
+  std::printf("%s: %zu lost, ATE %.2f mm\n", recording.description().c_str(), result.lost.size(),
+              1000.0 * result.error.ate_m.rmse);
+  return result;
+}
+
+SimulationOptions sceneOptions(const std::string& scene, int frames) {
+  SimulationOptions options;
+  options.scene = scene;
+  options.frames = frames;
+  return options;
+}
+
+Tracked trackScene(const SimulationOptions& options, const PipelineParameters& parameters = {}) {
+  SimulatedRecording recording(options);
+  Trajectory truth;
+  for (int i = 0; i < options.frames; ++i) truth.push_back(recording.poseOf(i));
+  return track(recording, truth, parameters);
+}
+
+PipelineParameters icpAlone() {
+  PipelineParameters parameters;
+  parameters.texture_odometry.enabled = false;
+  parameters.icp_tracking.degeneracy_threshold = 0.0f;
+  return parameters;
+}
+
+// A third of the three metres that docs/benchmarks.md has, to be quick.
+class FreeDirections : public testing::TestWithParam<const char*> {};
+
+TEST_P(FreeDirections, come_from_texture) {
+  const SimulationOptions options = sceneOptions(GetParam(), 100);
+  const Tracked tracked = trackScene(options);
+  EXPECT_TRUE(tracked.lost.empty());
+  EXPECT_LE(tracked.error.ate_m.max, 0.005 * tracked.path_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tracking, FreeDirections, testing::Values("wall", "floor_wall", "cylinder"));
+
+TEST(Tracking, icp_alone_slips_along_a_wall) {
+  const SimulationOptions options = sceneOptions("wall", 100);
+  const Tracked tracked = trackScene(options, icpAlone());
+  EXPECT_GE(tracked.error.ate_m.max, 0.1 * tracked.path_m) << "the control must fail, or the test shows nothing";
+}
+
+TEST(Tracking, a_room_without_texture_is_tracked_by_its_geometry) {
+  const Tracked tracked = trackScene(sceneOptions("white_room", 100));
+  EXPECT_TRUE(tracked.lost.empty());
+  EXPECT_LE(tracked.error.ate_m.rmse, 0.010);
+}
+
+TEST(Tracking, fast_hands_are_followed) {
+  SimulationOptions options = sceneOptions("room", 150);
+  options.linear_speed_m_s = 0.5;
+  options.turn_rate_deg_s = 60.0;
+  const Tracked tracked = trackScene(options);
+  EXPECT_TRUE(tracked.lost.empty());
+  EXPECT_LE(tracked.error.ate_m.rmse, 0.015);
+}
+
+// The desk of the TUM benchmark with its camera's calibration, through a Kinect's rolling shutter.
+class Desk : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(folder_)) GTEST_SKIP() << folder_ << " is not there";
+    readCamera("cfg/cameras/tum_freiburg1.yaml", options_);
+    loadParameterFile(parameters_.table(), "cfg/kinect_v1.yaml");
+    truth_ = readPoses(folder_);
+  }
+  std::unique_ptr<Recording> open() const { return openFolder(folder_, options_); }
+
+  const std::string folder_ = realDataFolder("tum_fr1_xyz");
+  RecordingOptions options_;
+  PipelineParameters parameters_;
+  Trajectory truth_;
+};
+
+TEST_F(Desk, is_followed_at_ten_hertz) {
+  const Tracked tracked = track(*everyNth(open(), 3), truth_, parameters_);
+  EXPECT_TRUE(tracked.lost.empty());
+  EXPECT_LE(tracked.error.ate_m.rmse, 0.015);
+}
+
+TEST_F(Desk, is_found_again_after_a_blackout_and_a_jump) {
+  const auto recording = interrupted([this] { return open(); }, {30, 100});
+  const Tracked tracked = track(*recording, repeated(truth_), parameters_);
+  ASSERT_GE(tracked.lost.size(), 30u);
+  EXPECT_EQ(tracked.lost.front(), 500u);
+  EXPECT_LT(tracked.lost.back(), 540u) << "back within 10 frames";
+  EXPECT_EQ(tracked.updated_while_lost, 0u);
+  EXPECT_LE(tracked.error.ate_m.rmse, 0.011);
+}
+
+}  // namespace
+}  // namespace depth_fusion
