@@ -52,7 +52,8 @@ void addOptions(CLI::App& app, RunOptions& options, std::vector<double>& intrins
   app.add_option("--camera", options.camera_file,
                  "camera file in place of the recording's: camera.yaml, or a calibration of ROS's camera_calibration, "
                  "whose lens distortion is taken out");
-  app.add_option("--params", options.parameter_file, "YAML file of `stage: {name: value}`; see --print-params");
+  app.add_option("--params", options.parameter_files,
+                 "YAML files of `stage: {name: value}`, the later over the earlier; see --print-params");
   app.add_option("--trajectory", options.trajectory_file, "fuse at these poses (TUM format, or a folder that holds poses) instead of tracking");
   app.add_option("--max-frames", options.max_frames, "stop after so many frames")
       ->check(CLI::Range(1, 1000000000));
@@ -77,10 +78,10 @@ int run(int argc, char** argv) {
   addOptions(app, options, intrinsics);
   app.add_flag("--print-params", print_parameters, "list every parameter with its value, range and meaning");
 
-  // The parameter file comes first, then the options, whatever their order on the command line.
+  // The parameter files come first, then the options, whatever their order on the command line.
   CLI11_PARSE(app, argc, argv);
-  if (!options.parameter_file.empty()) {
-    loadParameterFile(options.parameters.table(), options.parameter_file);
+  if (!options.parameter_files.empty()) {
+    for (const std::string& file : options.parameter_files) loadParameterFile(options.parameters.table(), file);
     CLI11_PARSE(app, argc, argv);
   }
   if (!options.camera_file.empty()) readCamera(options.camera_file, options.recording);

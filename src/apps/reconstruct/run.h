@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/recording.h"
@@ -11,7 +12,7 @@ namespace depth_fusion {
 struct RunOptions {
   std::string input;
   std::string output;
-  std::string parameter_file;
+  std::vector<std::string> parameter_files;
   std::string camera_file;
   std::string trajectory_file;
   std::string device;
