@@ -115,6 +115,13 @@ Solution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const IcpT
   return {information.ldlt().solve(-gradient), information.inverse()};
 }
 
+// A step is of use as far as matches reach: no point at the box's border is to move farther than their gate.
+Vector6d limited(const Vector6d& twist, const MatchGates& gates, const Eigen::AlignedBox3d& box) {
+  const double reach_m = (twist.tail<3>() + twist.head<3>().cross(box.center())).norm() +
+                         twist.head<3>().norm() * 0.5 * box.sizes().maxCoeff();
+  return reach_m > gates.max_distance_m ? Vector6d(twist * (gates.max_distance_m / reach_m)) : twist;
+}
+
 }  // namespace
 
 ParameterTable IcpTrackingParameters::table() {
@@ -165,17 +172,18 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
   // What geometry says weakly is worth more than no measurement.
   const double threshold = parameters_.degeneracy_threshold * (prior.information ? 1.0 : 0.1);
   const int iterations[] = {parameters_.fine_iterations, parameters_.middle_iterations, parameters_.coarse_iterations};
+  const MatchGates gates = gatesAt(level);
   for (int i = 0; i < iterations[level]; ++i) {
-    alignment.system =
-        kernels_->accumulateSystem(frame.levels[level], view, alignment.T_M_D, gatesAt(level), partial_sums_);
+    alignment.system = kernels_->accumulateSystem(frame.levels[level], view, alignment.T_M_D, gates, partial_sums_);
     ++alignment.iterations;
     if (alignment.system.inliers < 6.0) return false;
     const DegeneracyAnalysis analysis(alignment.system, box, threshold);
     const Solution solution = solve(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
-    alignment.T_M_D = poseFromTwist(solution.twist) * alignment.T_M_D;
+    const Vector6d step = limited(solution.twist, gates, box);
+    alignment.T_M_D = poseFromTwist(step) * alignment.T_M_D;
     alignment.covariance = solution.covariance;
-    const bool converged = solution.twist.head<3>().norm() < parameters_.convergence_rad &&
-                           solution.twist.tail<3>().norm() < parameters_.convergence_m;
+    const bool converged =
+        step.head<3>().norm() < parameters_.convergence_rad && step.tail<3>().norm() < parameters_.convergence_m;
     if (!converged && i + 1 < iterations[level]) continue;
     alignment.free_directions = analysis.freeDirectionNames();
     alignment.smallest_eigenvalue = analysis.smallestEigenvalue();

@@ -18,7 +18,7 @@ struct IcpTrackingParameters {
   int fine_iterations = 5;
   float coarse_distance_m = 0.1f;
   float fine_distance_m = 0.04f;
-  float coarse_normal_angle_rad = 0.6f;
+  float coarse_normal_angle_rad = 0.8f;
   float fine_normal_angle_rad = 0.6f;
   float huber_sigmas = 2.0f;
   float convergence_rad = 5e-5f;

@@ -50,14 +50,8 @@ struct Outcome {
   TrajectoryError error;
   double path_m = 0.0;
   double drift_m = 0.0;  // the largest error by the first pose
-  double prior_ms = 0.0, icp_ms = 0.0;
   TriangleMesh mesh;
 };
-
-double medianOf(const StageTimers& timers, const std::string& stage) {
-  const auto samples_ms = timers.samplesMs().find(stage);
-  return samples_ms == timers.samplesMs().end() ? 0.0 : percentile(samples_ms->second, 0.5);
-}
 
 double pathLength(const std::vector<PosePair>& pairs) {
   double length_m = 0.0;
@@ -81,44 +75,48 @@ void measure(const Trajectory& trajectory, const Trajectory& truth, Outcome& out
   }
 }
 
-Outcome runVariant(ComputeContext& compute, const TrackingInput& input, const Variant& variant, bool with_mesh) {
+// All of them at once, for several variants to run on.
+std::vector<RgbdFrame> framesOf(const TrackingInput& input) {
+  const std::unique_ptr<Recording> recording = input.open();
+  std::vector<RgbdFrame> frames;
+  while (std::optional<RgbdFrame> frame = recording->next()) frames.push_back(std::move(*frame));
+  check(!frames.empty(), input.name + " has no frames");
+  return frames;
+}
+
+Outcome runVariant(ComputeContext& compute, const TrackingInput& input, const std::vector<RgbdFrame>& frames,
+                   const Variant& variant, bool with_mesh) {
   PipelineParameters parameters = input.parameters;
   for (const auto& [name, value] : variant.parameters) setParameter(parameters.table(), name, value);
-  const std::unique_ptr<Recording> recording = input.open();
-  std::unique_ptr<ReconstructionPipeline> pipeline;
+  ReconstructionPipeline pipeline(compute, parameters, frames.front().intrinsics);
   Outcome outcome;
   Trajectory trajectory;
-  while (const std::optional<RgbdFrame> frame = recording->next()) {
-    if (!pipeline) pipeline = std::make_unique<ReconstructionPipeline>(compute, parameters, frame->intrinsics);
-    const TrackingResult tracking = pipeline->processFrame(*frame).tracking;
+  for (const RgbdFrame& frame : frames) {
+    const TrackingResult tracking = pipeline.processFrame(frame).tracking;
     ++outcome.frames;
     if (tracking.status == TrackingStatus::kLost) {
       ++outcome.lost;
       continue;
     }
     if (tracking.status == TrackingStatus::kDegenerate) ++outcome.degenerate;
-    trajectory.push_back({frame->stamp_s, tracking.T_W_D});
+    trajectory.push_back({frame.stamp_s, tracking.T_W_D});
   }
-  check(pipeline != nullptr, input.name + " has no frames");
   measure(trajectory, input.truth, outcome);
-  outcome.prior_ms = medianOf(pipeline->timers(), "texture_odometry");
-  outcome.icp_ms = medianOf(pipeline->timers(), "icp_tracking");
-  if (with_mesh) exportSurfaceMesh(compute, pipeline->map(), outcome.mesh);
+  if (with_mesh) exportSurfaceMesh(compute, pipeline.map(), outcome.mesh);
   return outcome;
 }
 
 std::string tableHead() {
-  return "| input | variant | frames | lost | degenerate | ATE RMSE, mm | drift, mm (% of the path) | wrong | prior + ICP, "
-         "ms |\n|---|---|---|---|---|---|---|---|---|\n";
+  return "| input | variant | frames | lost | degenerate | ATE RMSE, mm | drift, mm (% of the path) | wrong |\n"
+         "|---|---|---|---|---|---|---|---|\n";
 }
 
 std::string tableRow(const TrackingInput& input, const Variant& variant, const Outcome& outcome) {
   char row[300];
-  std::snprintf(row, sizeof(row), "| %s | %s | %zu | %zu | %zu | %.2f | %.2f (%.2f) | %zu | %.1f + %.1f |\n",
+  std::snprintf(row, sizeof(row), "| %s | %s | %zu | %zu | %zu | %.2f | %.2f (%.2f) | %zu |\n",
                 input.name.c_str(), variant.name.c_str(), outcome.frames, outcome.lost, outcome.degenerate,
                 1000.0 * outcome.error.ate_m.rmse, 1000.0 * outcome.drift_m,
-                outcome.path_m > 0.0 ? 100.0 * outcome.drift_m / outcome.path_m : 0.0, outcome.wrong, outcome.prior_ms,
-                outcome.icp_ms);
+                outcome.path_m > 0.0 ? 100.0 * outcome.drift_m / outcome.path_m : 0.0, outcome.wrong);
   return row;
 }
 
@@ -127,12 +125,13 @@ void drawMeshes(const std::string& path, const std::vector<Variant>& variants, c
   const CameraIntrinsics camera = pictureCamera(640, 480, CV_PI / 3.0);
   if (outcomes.back().mesh.vertices.empty()) return;
   const Pose T_W_C = viewOf(outcomes.back().mesh, camera, viewNames().front());
-  cv::Mat row;
+  std::vector<cv::Mat> pictures;
   for (size_t i = 0; i < variants.size(); ++i) {
-    cv::Mat picture = renderMesh(outcomes[i].mesh, camera, T_W_C);
-    cv::putText(picture, variants[i].name, {12, 28}, cv::FONT_HERSHEY_SIMPLEX, 0.8, {0, 0, 0}, 2, cv::LINE_AA);
-    row = i == 0 ? picture : [&] { cv::Mat both; cv::hconcat(row, picture, both); return both; }();
+    pictures.push_back(renderMesh(outcomes[i].mesh, camera, T_W_C));
+    cv::putText(pictures[i], variants[i].name, {12, 28}, cv::FONT_HERSHEY_SIMPLEX, 0.8, {0, 0, 0}, 2, cv::LINE_AA);
   }
+  cv::Mat row;
+  cv::hconcat(pictures, row);
   check(cv::imwrite(path, row, {cv::IMWRITE_JPEG_QUALITY, 85}), "picture " + path + " cannot be written");
 }
 
@@ -147,9 +146,10 @@ void runBenchmark(TrackingBenchmark options) {
   std::string table = tableHead();
   std::cout << table << std::flush;
   for (const TrackingInput& input : trackingInputs(options)) {
+    const std::vector<RgbdFrame> frames = framesOf(input);
     std::vector<Outcome> outcomes;
     for (const Variant& variant : variants) {
-      outcomes.push_back(runVariant(compute, input, variant, !options.gates));
+      outcomes.push_back(runVariant(compute, input, frames, variant, !options.gates));
       table += tableRow(input, variant, outcomes.back());
       std::cout << tableRow(input, variant, outcomes.back()) << std::flush;
     }

@@ -51,10 +51,12 @@ TrackingInput withInterruption(TrackingInput input, const std::string& what, con
 }
 
 std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
+  const TrackingInput white_room = simulated("white_room", "white_room");
   std::vector<TrackingInput> inputs = {simulated("wall", "wall"),
                                        simulated("floor_wall", "floor_wall"),
                                        simulated("cylinder", "cylinder"),
-                                       simulated("white_room", "white_room"),
+                                       white_room,
+                                       withInterruption(white_room, "_jump", {0, 50}),
                                        simulated("room_fast", "room", 0.5, 60.0)};
   const std::string kinect = options.cfg + "/kinect_v1.yaml";
   const std::string tum = options.data + "/tum_fr1_xyz", kitchen = options.data + "/redkitchen";
