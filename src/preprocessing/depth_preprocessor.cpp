@@ -7,12 +7,6 @@
 #include "preprocessing/depth_preprocessing_kernels.h"
 
 namespace depth_fusion {
-namespace {
-
-std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
-
-}  // namespace
-
 ParameterTable PreprocessingParameters::table() {
   return {{"min_range_m", &min_range_m, 0.0, 100.0, "nearer depth is left out"},
           {"max_range_m", &max_range_m, 0.01, 100.0, "farther depth is left out"},

@@ -137,6 +137,19 @@ TEST(SevenScenesRecording, names_bad_intrinsics_and_folders_without_depth) {
   expectError([&] { openFolder(folder.path(), {}); }, {folder.path(), "no recording"});
 }
 
+TEST(SevenScenesRecording, knows_the_data_sets_colour_camera_and_no_other) {
+  const TemporaryFolder folder;
+  cv::imwrite(frameFile(folder, "000000", ".depth.png"), cv::Mat(480, 640, CV_16UC1, cv::Scalar(1500)));
+  cv::imwrite(frameFile(folder, "000000", ".color.png"), cv::Mat(480, 640, CV_8UC3, cv::Scalar(1, 2, 3)));
+  const auto frame = openFolder(folder.path(), {})->next();
+  ASSERT_TRUE(frame->color_intrinsics && frame->T_C_D);
+  EXPECT_EQ(frame->color_intrinsics->fx, 525.0);
+  EXPECT_NEAR(frame->T_C_D->translation().norm(), 0.025, 0.003);
+  writeText(folder / "camera-intrinsics.txt", "525 0 320\n0 525 240\n0 0 1\n");
+  const auto registered = openFolder(folder.path(), {})->next();
+  EXPECT_FALSE(registered->color_intrinsics || registered->T_C_D);
+}
+
 TEST(SevenScenesRecording, reads_the_real_redkitchen) {
   const std::string path = realDataFolder("redkitchen");
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";

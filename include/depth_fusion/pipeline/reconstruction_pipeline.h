@@ -1,6 +1,7 @@
 // One frame's way through all the stages.
 #pragma once
 
+#include "depth_fusion/color_fusion/color_fusion.h"
 #include "depth_fusion/icp_tracking/icp_tracker.h"
 #include "depth_fusion/model_view/model_view.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
@@ -15,6 +16,7 @@ struct PipelineParameters {
   TextureOdometryParameters texture_odometry;
   IcpTrackingParameters icp_tracking;
   FusionParameters tsdf_fusion;
+  ColorFusionParameters color_fusion;
   SurfaceMeshParameters surface_mesh;
 
   // The rows of all the stages, named "<stage>/<name>".
@@ -24,6 +26,7 @@ struct PipelineParameters {
 struct FrameResult {
   TrackingResult tracking;
   FusionResult fusion;  // all zero if the frame was not fused
+  ColorFusionResult color;
 };
 
 // Tracks and fuses frame by frame. W is the first fused frame's camera frame, or that of the given
@@ -60,6 +63,7 @@ class ReconstructionPipeline {
   TextureOdometry odometry_;
   IcpTracker tracker_;
   TsdfFusion fusion_;
+  std::unique_ptr<ColorFusion> color_fusion_;  // null without map/color
   ModelViewRenderer renderer_;
   const ModelView* view_ = nullptr;  // of the last fused frame; none before the first
   MotionPrior previous_;             // of the frame before

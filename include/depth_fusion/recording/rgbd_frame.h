@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 
 #include "depth_fusion/geometry/camera_intrinsics.h"
 #include "depth_fusion/geometry/pose.h"
@@ -20,5 +21,17 @@ struct RgbdFrame {
   std::optional<Pose> T_C_D;  // unset: depth is registered to colour
   std::optional<Pose> T_W_D;  // reference pose, where the recording has one for this very frame
 };
+
+// Of the frame's colour image.
+inline CameraIntrinsics colorCamera(const RgbdFrame& frame) { return frame.color_intrinsics.value_or(frame.intrinsics); }
+
+// Why the frame's colour cannot be used; empty if it can.
+inline std::string colorProblem(const RgbdFrame& frame) {
+  if (frame.color.empty()) return "no colour image";
+  const CameraIntrinsics camera = colorCamera(frame);
+  if (frame.color.cols == camera.width && frame.color.rows == camera.height) return {};
+  return "the colour image is " + sizeText(frame.color.cols, frame.color.rows) + ", its intrinsics are for " +
+         sizeText(camera.width, camera.height);
+}
 
 }  // namespace depth_fusion

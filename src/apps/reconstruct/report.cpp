@@ -49,6 +49,7 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
        {{"blocks", usage.blocks},
         {"capacity", usage.capacity},
         {"bytes", usage.bytes},
+        {"color_bytes", usage.color_bytes},
         {"pool_bytes", usage.pool_bytes}}},
       {"peak_rss_bytes", peakRssBytes()},
       {"tracking_peak_rss_bytes", tracking_peak_rss_bytes}};
