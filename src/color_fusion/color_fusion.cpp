@@ -1,5 +1,7 @@
 #include "depth_fusion/color_fusion/color_fusion.h"
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "color_fusion/color_alignment.h"
@@ -12,9 +14,25 @@
 namespace depth_fusion {
 namespace {
 
+constexpr double kSharpestDecay = 0.99;  // a frame
+constexpr double kLeastSharpnessWeight = 0.03;
+
 struct Float4 {
   float x, y, z, w;
 };
+
+// How much the brightness bends from pixel to pixel, as a fraction of itself: motion blur lowers it most.
+double sharpnessOf(const cv::Mat& color) {
+  cv::Mat half, grey, bends;
+  cv::resize(color, half, cv::Size(), 0.5, 0.5, cv::INTER_AREA);
+  if (half.channels() == 3) {
+    cv::cvtColor(half, grey, cv::COLOR_BGR2GRAY);
+  } else {
+    grey = half;
+  }
+  cv::Laplacian(grey, bends, CV_16S);
+  return cv::norm(bends, cv::NORM_L1) / std::max(cv::sum(grey)[0], 1.0);
+}
 
 }  // namespace
 
@@ -31,7 +49,9 @@ ParameterTable ColorFusionParameters::table() {
        "true: each frame's exposure and white balance follow the map's"},
       {"align", &align, 0, 1, "true: the colour camera's pose is corrected until its colours fit the map's"},
       {"sample_stride_px", &sample_stride_px, 1, 64,
-       "of the grid of pixels that exposure and alignment look at"}};
+       "of the grid of pixels that exposure and alignment look at"},
+          {"blur_exponent", &blur_exponent, 0.0, 10.0,
+           "an image's weight falls with this power of its sharpness, compared with the sharpest of late"}};
 }
 
 // The colour image and what belongs to it, on the device in the layout of images.
@@ -104,7 +124,8 @@ ColorFusionResult ColorFusion::integrate(const RgbdFrame& frame, const DepthFram
   {
     const StageTimers::Scope timer(timers, "color_fusion/integrate");
     const Eigen::Array3f gain = exposure_gain_.cast<float>();
-    const ColorFusionArgs args{{gain[0], gain[1], gain[2]}, parameters_.weight_at_1m,
+    const auto weight_at_1m = static_cast<float>(parameters_.weight_at_1m * sharpnessWeight(frame.color));
+    const ColorFusionArgs args{{gain[0], gain[1], gain[2]}, weight_at_1m,
                                parameters_.max_weight,      0.5f * map_.parameters().truncation_m,
                                parameters_.hidden_sigmas,   frame_number_++};
     kernels_->integrateColor(map_, visible, visible_count, images_->pixels, *depth_C, images_->camera, T_C_W,
@@ -114,6 +135,13 @@ ColorFusionResult ColorFusion::integrate(const RgbdFrame& frame, const DepthFram
   result.fused = true;
   result.exposure_gain = exposure_gain_;
   return result;
+}
+
+double ColorFusion::sharpnessWeight(const cv::Mat& color) {
+  const double sharpness = sharpnessOf(color);
+  sharpest_ = std::max(kSharpestDecay * sharpest_, sharpness);
+  if (sharpest_ == 0.0) return 1.0;
+  return std::max(std::pow(sharpness / sharpest_, parameters_.blur_exponent), kLeastSharpnessWeight);
 }
 
 std::vector<SurfaceColor> ColorFusion::sampleMap(const DepthFrame& depth, const Pose& T_W_D) {

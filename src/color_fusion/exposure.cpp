@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "depth_fusion/common/stage_timers.h"
+#include "depth_fusion/common/percentile.h"
 
 namespace depth_fusion {
 namespace {

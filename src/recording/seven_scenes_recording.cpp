@@ -5,6 +5,7 @@
 #include <map>
 
 #include "depth_fusion/common/error.h"
+#include "recording/color_or_problem.h"
 #include "recording/folder_recording.h"
 #include "recording/image_file.h"
 #include "recording/recording_intrinsics.h"
@@ -112,7 +113,8 @@ class SevenScenesRecording : public Recording {
     frame.depth_unit_m = kDepthUnit_m;
     frame.intrinsics = intrinsics_.camera;
     checkDepthSize(frame.depth, frame.intrinsics, files.depth);
-    if (!files.color.empty()) setColor(frame, readColorImage(files.color));
+    if (!files.color.empty()) readColorOrProblem(frame, [&] { return readColorImage(files.color); });
+    setColorCamera(frame);
     if (!files.pose.empty()) frame.T_W_D = readPose(files.pose);
     return frame;
   }
@@ -127,10 +129,9 @@ class SevenScenesRecording : public Recording {
 
  private:
   // A recording with the data set's depth camera has its colour camera, too; another's colour fits its depth.
-  void setColor(RgbdFrame& frame, const cv::Mat& color) const {
-    frame.color = color;
+  static void setColorCamera(RgbdFrame& frame) {
     const bool is_data_set = sameCamera(frame.intrinsics, kDataSetDefault) &&
-                             color.size() == cv::Size(kDataSetColor.width, kDataSetColor.height);
+                             frame.color.size() == cv::Size(kDataSetColor.width, kDataSetColor.height);
     if (!is_data_set) return;
     frame.color_intrinsics = kDataSetColor;
     frame.T_C_D = poseFromTwist(kDataSetColorMotion);

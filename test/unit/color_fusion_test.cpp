@@ -5,6 +5,7 @@
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
+#include "depth_fusion/common/percentile.h"
 #include "depth_fusion/compute/device_image.h"
 #include "support/colored_scene.h"
 #include "support/expect_error.h"
@@ -109,6 +110,18 @@ TEST(ColorFusion, AlignmentMakesUpForClocksThatDiffer) {
   const double unaligned = meanError(fuseFrames(parameters, kFrames, late));
   EXPECT_LT(aligned, 2.5);
   EXPECT_GT(unaligned, 2.0 * aligned);
+}
+
+// Every other image is blurred, as by a fast motion.
+TEST(ColorFusion, SharpImagesCountMoreThanBlurredOnes) {
+  const auto blur = [](int i, RgbdFrame& frame) {
+    if (i % 2 == 1) cv::blur(frame.color, frame.color, cv::Size(41, 1));
+  };
+  PipelineParameters parameters = colorParameters();
+  const double weighted = meanError(fuseFrames(parameters, kFrames, blur));
+  parameters.color_fusion.blur_exponent = 0.0f;
+  const double alike = meanError(fuseFrames(parameters, kFrames, blur));
+  EXPECT_LT(1.5 * weighted, alike);
 }
 
 // The colour camera sees the box three pixels beside where the depth camera does; no colour may spill over

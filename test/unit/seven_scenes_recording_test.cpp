@@ -115,12 +115,20 @@ TEST(SevenScenesRecording, names_bad_files_and_goes_on) {
   expectBadFirst({pose, "no rotation"});
   writeText(pose, "-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
   expectBadFirst({pose, "no rotation"});
-  const std::string color = frameFile(folder, "000002", ".color.png");
-  fs::resize_file(color, fs::file_size(color) - 5);
-  expectBadFirst({color, "truncated"});
   const std::string depth = frameFile(folder, "000002", ".depth.png");
   fs::resize_file(depth, fs::file_size(depth) / 2);
   expectBadFirst({depth, "truncated"});
+}
+
+TEST(SevenScenesRecording, truncated_colour_costs_no_depth) {
+  const TemporaryFolder folder;
+  makeFolder(folder);
+  const std::string color = frameFile(folder, "000002", ".color.png");
+  fs::resize_file(color, fs::file_size(color) - 5);
+  const auto frame = openFolder(folder.path(), {})->next();
+  EXPECT_FALSE(frame->depth.empty());
+  EXPECT_TRUE(frame->color.empty());
+  EXPECT_NE(frame->color_problem.find(color), std::string::npos) << frame->color_problem;
 }
 
 TEST(SevenScenesRecording, names_bad_intrinsics_and_folders_without_depth) {

@@ -20,6 +20,7 @@ struct ColorFusionParameters {
   bool match_exposure = true;
   bool align = true;
   int sample_stride_px = 4;
+  float blur_exponent = 3.0f;
 
   ParameterTable table();
 };
@@ -49,6 +50,8 @@ class ColorFusion {
  private:
   struct Images;
 
+  // 1 for the sharpest image of late, less for blurred ones.
+  double sharpnessWeight(const cv::Mat& color);
   // What the map says about the surface that the depth shows.
   std::vector<SurfaceColor> sampleMap(const DepthFrame& depth, const Pose& T_W_D);
 
@@ -59,6 +62,7 @@ class ColorFusion {
   std::unique_ptr<Images> images_;  // null before the first colour image
   DeviceBuffer points_, found_;
   Eigen::Array3d exposure_gain_ = Eigen::Array3d::Ones();  // of the last frame
+  double sharpest_ = 0.0;                                  // image of late
   int frame_number_ = 0;
 };
 

@@ -15,6 +15,7 @@ struct RgbdFrame {
   cv::Mat depth;  // CV_16UC1 in units of depth_unit_m, or CV_32FC1 in units of depth_unit_m; 0, NaN = none
   double depth_unit_m = 1.0;    // metres a unit of `depth` (0.001 for millimetres)
   cv::Mat color;                // CV_8UC3 BGR or CV_8UC1, or empty; nearest in time to `depth`
+  std::string color_problem;    // why `color` is empty though the recording has an image
   CameraIntrinsics intrinsics;  // of the depth camera; width and height equal those of `depth`
   std::optional<CameraIntrinsics>
       color_intrinsics;       // unset: colour has the depth camera's, depth is registered to it
@@ -27,6 +28,7 @@ inline CameraIntrinsics colorCamera(const RgbdFrame& frame) { return frame.color
 
 // Why the frame's colour cannot be used; empty if it can.
 inline std::string colorProblem(const RgbdFrame& frame) {
+  if (!frame.color_problem.empty()) return frame.color_problem;
   if (frame.color.empty()) return "no colour image";
   const CameraIntrinsics camera = colorCamera(frame);
   if (frame.color.cols == camera.width && frame.color.rows == camera.height) return {};

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "depth_fusion/common/percentile.h"
 #include "recording/text_file.h"
 
 namespace depth_fusion {
@@ -42,7 +43,8 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
       {"device", compute.selfTestReport()},
       {"parameters", parametersJson(pipeline.parameters())},
       {"frames",
-       {{"read", counts.read}, {"tracked", counts.tracked}, {"lost", counts.lost}, {"unreadable", counts.unreadable}}},
+       {{"read", counts.read}, {"tracked", counts.tracked}, {"lost", counts.lost},
+        {"unreadable", counts.unreadable}, {"colored", counts.colored}}},
       {"frame_ms", frame},
       {"stage_ms", stages},
       {"map",

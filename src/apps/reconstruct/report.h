@@ -12,6 +12,7 @@ struct RunCounts {
   size_t tracked = 0;
   size_t lost = 0;
   size_t unreadable = 0;
+  size_t colored = 0;  // of the tracked ones: with colour in the map
 };
 
 // Largest resident set of the process so far.

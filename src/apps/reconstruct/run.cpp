@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -11,6 +12,7 @@
 
 #include "apps/reconstruct/report.h"
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/common/percentile.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "ros/recording.h"
@@ -33,6 +35,8 @@ class Run {
   std::optional<RgbdFrame> nextFrame();
   void fuseFrame(const RgbdFrame& frame);
   void noteResult(const RgbdFrame& frame, const FrameResult& result);
+  // Says the first time that a frame's colour cannot be read.
+  void noteColor(const RgbdFrame& frame);
   void showProgress(bool last);
   // 0 before the first frame.
   double medianFrame_ms() const;
@@ -51,6 +55,7 @@ class Run {
   RunCounts counts_;
   std::string status_;
   bool pool_was_full_ = false;
+  bool color_was_bad_ = false;
   bool failed_ = false;
 };
 
@@ -76,6 +81,8 @@ int Run::execute() {
   check(pipeline_ != nullptr, options_.input + ": no frame could be read");
   if (counts_.tracked == 0)
     complain("no frame of " + options_.input + " was fused; the last one is " + status_);
+  if (options_.parameters.map.color && counts_.colored == 0)
+    complain("--color: no frame of " + options_.input + " has a colour image that can be used");
   writeResults();
   return failed_ ? 1 : 0;
 }
@@ -87,6 +94,7 @@ void Run::fuseRecording() {
     if (!pipeline_) {
       pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, frame->intrinsics);
     }
+    noteColor(*frame);
     fuseFrame(*frame);
     showProgress(false);
   }
@@ -128,6 +136,7 @@ void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
     return;
   }
   ++counts_.tracked;
+  if (result.color.fused) ++counts_.colored;
   status_ = result.tracking.status == TrackingStatus::kDegenerate ? "degenerate: " + result.tracking.reason : "tracking";
   trajectory_.push_back({frame.stamp_s, result.tracking.T_W_D});
   if (result.fusion.blocks_allocated < result.fusion.blocks_requested && !pool_was_full_) {
@@ -137,12 +146,20 @@ void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
   }
 }
 
+void Run::noteColor(const RgbdFrame& frame) {
+  if (frame.color_problem.empty() || color_was_bad_) return;
+  color_was_bad_ = true;
+  std::cerr << "reconstruct: " << frame.color_problem << "; only the frame's depth is used, and so with others like it"
+            << std::endl;
+}
+
 void Run::showProgress(bool last) {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   if (!terminal && last == (counts_.read % 50 == 0)) return;
   const double frame_ms = medianFrame_ms();
+  const size_t all = recording_->frameCount();
   std::printf("%sframe %zu/%zu  %.1f ms (%.0f fps)  %zu blocks  %zu lost  %-30s%s", terminal ? "\r" : "",
-              counts_.read, recording_->frameCount(), frame_ms, frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0,
+              counts_.read, options_.max_frames == 0 ? all : std::min(all, options_.max_frames), frame_ms, frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0,
               pipeline_->map().usage().blocks, counts_.lost, status_.c_str(), terminal && !last ? "" : "\n");
   std::fflush(stdout);
 }
