@@ -69,7 +69,7 @@ void render(const Options& options) {
 }  // namespace depth_fusion
 
 int main(int argc, char** argv) {
-  CLI::App app("Draws a picture of a mesh: in its colours, or in shaded grey without; red where seen from behind.");
+  CLI::App app("Draws a picture of a mesh: in its colours, dark where seen from behind, or shaded in grey and red.");
   depth_fusion::Options options;
   depth_fusion::declareOptions(app, options);
   CLI11_PARSE(app, argc, argv);

@@ -14,7 +14,7 @@ constexpr double kConverged_px = 0.02;
 constexpr double kHuber = 8.0;        // brightness, of 255
 constexpr double kFullWeight = 16.0;  // a map's colour of this weight counts as much as any
 constexpr double kPriorRotation_rad = 0.02;
-constexpr double kPriorTranslation_m = 0.01;
+constexpr double kPriorTranslation_m = 0.004;
 constexpr double kPointsPerOpinion = 50.0;  // neighbouring points share their errors
 
 struct Point {
@@ -25,6 +25,7 @@ struct Point {
 struct Level {
   CameraIntrinsics camera;
   cv::Mat brightness, slope_u, slope_v;  // CV_32FC1
+  size_t stride = 1;                     // of the points looked at
 };
 
 std::vector<Point> brightnessOf(const std::vector<SurfaceColor>& surface) {
@@ -48,8 +49,11 @@ cv::Mat brightnessOf(const ColorImage& image, const Eigen::Array3d& gain) {
 std::vector<Level> pyramidOf(const cv::Mat& brightness, CameraIntrinsics camera) {
   std::vector<Level> levels(kLevels);
   cv::Mat image = brightness;
+  size_t stride = 1;
   for (Level& level : levels) {
     level.camera = camera;
+    level.stride = stride;
+    stride *= 2;
     level.brightness = image;
     cv::Sobel(image, level.slope_u, CV_32F, 1, 0, 3, 1.0 / 8.0);
     cv::Sobel(image, level.slope_v, CV_32F, 0, 1, 3, 1.0 / 8.0);
@@ -87,7 +91,8 @@ struct System {
 System systemAt(const std::vector<Point>& points, const Level& level, const Pose& T_C_W) {
   System system;
   const CameraIntrinsics& camera = level.camera;
-  for (const Point& point : points) {
+  for (size_t i = 0; i < points.size(); i += level.stride) {
+    const Point& point = points[i];
     const Eigen::Vector3d p = T_C_W * point.p_W;
     const double u = camera.fx * p.x() / p.z() + camera.cx;
     const double v = camera.fy * p.y() / p.z() + camera.cy;

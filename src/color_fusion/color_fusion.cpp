@@ -14,6 +14,8 @@
 namespace depth_fusion {
 namespace {
 
+constexpr double kMeanFrames = 20.0;     // over which the mean correction is taken
+constexpr double kAnchor = 0.3;          // the part of it that is taken back
 constexpr double kSharpestDecay = 0.99;  // a frame
 constexpr double kLeastSharpnessWeight = 0.03;
 
@@ -50,8 +52,8 @@ ParameterTable ColorFusionParameters::table() {
       {"align", &align, 0, 1, "true: the colour camera's pose is corrected until its colours fit the map's"},
       {"sample_stride_px", &sample_stride_px, 1, 64,
        "of the grid of pixels that exposure and alignment look at"},
-          {"blur_exponent", &blur_exponent, 0.0, 10.0,
-           "an image's weight falls with this power of its sharpness, compared with the sharpest of late"}};
+      {"blur_exponent", &blur_exponent, 0.0, 10.0,
+       "an image's weight falls with this power of its sharpness, compared with the sharpest of late"}};
 }
 
 // The colour image and what belongs to it, on the device in the layout of images.
@@ -119,7 +121,7 @@ ColorFusionResult ColorFusion::integrate(const RgbdFrame& frame, const DepthFram
     const ColorImage image = images_->host();
     if (parameters_.match_exposure)
       exposure_gain_ = exposureGain(surface, image, T_C_W).value_or(exposure_gain_);
-    if (parameters_.align) result.T_C_W = alignColor(surface, image, exposure_gain_, T_C_W);
+    if (parameters_.align) result.T_C_W = anchored(alignColor(surface, image, exposure_gain_, T_C_W), T_C_W);
   }
   {
     const StageTimers::Scope timer(timers, "color_fusion/integrate");
@@ -135,6 +137,12 @@ ColorFusionResult ColorFusion::integrate(const RgbdFrame& frame, const DepthFram
   result.fused = true;
   result.exposure_gain = exposure_gain_;
   return result;
+}
+
+Pose ColorFusion::anchored(const Pose& aligned_T_C_W, const Pose& T_C_W) {
+  const Vector6d correction = twistFromPose(aligned_T_C_W * T_C_W.inverse());
+  mean_correction_ += (correction - mean_correction_) / kMeanFrames;
+  return poseFromTwist(correction - kAnchor * mean_correction_) * T_C_W;
 }
 
 double ColorFusion::sharpnessWeight(const cv::Mat& color) {

@@ -9,7 +9,8 @@ namespace {
 constexpr float kNearest_m = 1e-3f;
 const cv::Vec3f kBackground(38.0f, 32.0f, 28.0f);
 const cv::Vec3f kFront(225.0f, 212.0f, 200.0f);
-const cv::Vec3f kBack(70.0f, 80.0f, 190.0f);
+const cv::Vec3f kTintOfShaded(0.31f, 0.38f, 0.95f);  // red
+const cv::Vec3f kTintOfColored(0.4f, 0.4f, 0.4f);
 constexpr float kAmbient = 0.15f;
 constexpr int kSubpixels = 2;  // each pixel is the mean of 2x2
 
@@ -21,12 +22,14 @@ struct Corner {
 
 struct Canvas {
   int width, height;
+  cv::Vec3f tint_from_behind;  // factors on a surface's colour
   std::vector<float> inverse_depths;
   std::vector<cv::Vec3f> colours;
 
-  Canvas(int w, int h)
+  Canvas(int w, int h, const cv::Vec3f& tint)
       : width(w),
         height(h),
+        tint_from_behind(tint),
         inverse_depths(static_cast<size_t>(w) * h, 0.0f),
         colours(static_cast<size_t>(w) * h, kBackground) {}
 };
@@ -80,7 +83,7 @@ void drawPixel(Canvas& canvas, const Corner (&t)[3], float whole, int u, int v) 
   const cv::Vec3f color_by_depth =
       w0 * t[0].color_by_depth + w1 * t[1].color_by_depth + w2 * t[2].color_by_depth;
   const cv::Vec3f color = color_by_depth * (1.0f / inverse_depth);
-  canvas.colours[pixel] = whole < 0.0f ? color : kBack * (color[1] / kFront[1]);
+  canvas.colours[pixel] = whole < 0.0f ? color : cv::Vec3f(color.mul(canvas.tint_from_behind));
 }
 
 void drawTriangle(Canvas& canvas, const Corner (&t)[3]) {
@@ -119,7 +122,7 @@ cv::Mat renderMesh(const TriangleMesh& mesh, const CameraIntrinsics& camera, con
   const bool colored = paint == MeshPaint::kColors && !mesh.colors.empty();
   const CameraIntrinsics fine = magnified(camera, kSubpixels);
   const std::vector<Corner> corners = projectVertices(mesh, fine, T_W_C, colored);
-  Canvas canvas(fine.width, fine.height);
+  Canvas canvas(fine.width, fine.height, colored ? kTintOfColored : kTintOfShaded);
   for (const MeshTriangle& triangle : mesh.triangles) {
     const Corner t[3] = {corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]};
     if (t[0].inverse_depth > 0.0f && t[1].inverse_depth > 0.0f && t[2].inverse_depth > 0.0f)

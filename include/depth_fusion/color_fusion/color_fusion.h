@@ -14,7 +14,7 @@ namespace depth_fusion {
 
 struct ColorFusionParameters {
   float weight_at_1m = 16.0f;
-  float max_weight = 255.0f;
+  float max_weight = 64.0f;
   float max_relative_step = 0.03f;
   float hidden_sigmas = 2.0f;
   bool match_exposure = true;
@@ -50,6 +50,9 @@ class ColorFusion {
  private:
   struct Images;
 
+  // The aligned pose, drawn a little towards the one that geometry gives as long as it stays on one side of
+  // that: clocks that differ move it to and fro, but small errors of calibration add up as the view moves on.
+  Pose anchored(const Pose& aligned_T_C_W, const Pose& T_C_W);
   // 1 for the sharpest image of late, less for blurred ones.
   double sharpnessWeight(const cv::Mat& color);
   // What the map says about the surface that the depth shows.
@@ -62,6 +65,7 @@ class ColorFusion {
   std::unique_ptr<Images> images_;  // null before the first colour image
   DeviceBuffer points_, found_;
   Eigen::Array3d exposure_gain_ = Eigen::Array3d::Ones();  // of the last frame
+  Vector6d mean_correction_ = Vector6d::Zero();            // by alignment, of late
   double sharpest_ = 0.0;                                  // image of late
   int frame_number_ = 0;
 };

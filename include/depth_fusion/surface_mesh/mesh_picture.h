@@ -12,11 +12,11 @@
 namespace depth_fusion {
 
 enum class MeshPaint {
-  kColors,  // the vertices' colours as they are; a mesh without is shaded
-  kShaded,  // bluish grey, lit from the camera
+  kColors,  // the vertices' colours as they are, dark where seen from behind; a mesh without is shaded
+  kShaded,  // bluish grey, lit from the camera, red where seen from behind
 };
 
-// The triangles in front of the camera; red where seen from behind. Triangles that reach behind the camera are left out.
+// The triangles in front of the camera. Triangles that reach behind the camera are left out.
 // CV_8UC3, BGR.
 cv::Mat renderMesh(const TriangleMesh& mesh, const CameraIntrinsics& camera, const Pose& T_W_C,
                    MeshPaint paint = MeshPaint::kColors);
