@@ -1,4 +1,5 @@
-// Bookkeeping of blocks. A work-item is one block (assign_blocks, withdraw_requests) or 16 voxels (clear_blocks).
+// Bookkeeping of blocks. A work-item is one block (assign_blocks, withdraw_requests) or 16 voxels (clear_blocks,
+// clear_colors).
 //   offsets        slot or BLOCK_EMPTY a block of the window
 //   block_indices  index and in-use flag a slot
 //   requests       index a block
@@ -22,6 +23,13 @@ __kernel void clear_blocks(__global char *voxels, __global const int *slots, int
   if (i >= count) return;
   vstore16((char16)(TSDF_CHI), part, voxels + block_distances(slots[i]));
   vstore16((char16)(0), part, voxels + block_weights(slots[i]));
+}
+
+__kernel void clear_colors(__global uint *colors, __global const int *slots, int count) {
+  const int items_per_block = BLOCK_VOXELS / 16;
+  const int i = get_global_id(0) / items_per_block;
+  const int part = get_global_id(0) % items_per_block;
+  if (i < count) vstore16((uint16)(0), part, colors + block_colors(slots[i]));
 }
 
 __kernel void withdraw_requests(__global int *offsets, __global const int4 *requests, int count, GridArgs grid) {

@@ -17,6 +17,14 @@ inline int block_address(int3 block, const GridArgs grid) {
   return in_window.x + n * (in_window.y + n * in_window.z);
 }
 
+// Number of a voxel in its block.
+inline int voxel_number(int3 in_block) {
+  return in_block.x + (in_block.y << BLOCK_SIZE_LOG2) + (in_block.z << (2 * BLOCK_SIZE_LOG2));
+}
+
+// Number of a block's first colour in the colour pool.
+inline size_t block_colors(int slot) { return (size_t)slot * BLOCK_VOXELS; }
+
 // Byte offsets of a block's distances and weights in the voxel pool.
 inline size_t block_distances(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS); }
 inline size_t block_weights(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS) + BLOCK_VOXELS; }

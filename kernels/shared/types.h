@@ -75,6 +75,15 @@ typedef struct {
   int frame;           // number of the frame, for the rounding's dither
 } FusionArgs;
 
+// Fusion of colour.
+typedef struct {
+  float exposure_gain[3];  // from the image's blue, green, red to the map's
+  float weight_at_1m;      // of a pixel seen head-on from 1 m; falls with the squares of depth and cosine
+  float max_weight;
+  float hidden_m, hidden_sigmas;  // a surface is hidden if the depth differs by more than this and so many sigmas
+  int frame;                      // number of the frame, for the rounding's dither
+} ColorFusionArgs;
+
 // Projective point-to-plane matching.
 typedef struct {
   float max_distance_m;
@@ -82,6 +91,15 @@ typedef struct {
   float huber_sigmas;  // residual, in standard deviations of the sensor, from which a match's weight falls
   int source_plane, model_plane;  // elements from one component of the normals to the next
 } MatchingArgs;
+
+// A block of a batch of the surface mesh. Only the first blocks of a batch, the core, emit; the others lend them their
+// vertices.
+typedef struct {
+  int index[3];
+  unsigned first_vertex;    // of the whole mesh
+  unsigned first_triangle;  // of the batch
+  int neighbours[8];        // place in the batch of the block (n & 1, n >> 1 & 1, n >> 2 & 1) farther, -1 if not there
+} MeshBlockArgs;
 
 // Sums of the ICP system: the upper triangle of J^T w J row by row, J^T w r, w r^2, the number of inliers, and the
 // number of source points.

@@ -42,11 +42,23 @@
   MEMBER(FusionArgs, max_measurement_weight) \
   MEMBER(FusionArgs, max_weight)             \
   MEMBER(FusionArgs, frame)                  \
+  STRUCT(ColorFusionArgs)                    \
+  MEMBER(ColorFusionArgs, exposure_gain)     \
+  MEMBER(ColorFusionArgs, weight_at_1m)      \
+  MEMBER(ColorFusionArgs, max_weight)        \
+  MEMBER(ColorFusionArgs, hidden_m)          \
+  MEMBER(ColorFusionArgs, hidden_sigmas)     \
+  MEMBER(ColorFusionArgs, frame)             \
   STRUCT(MatchingArgs)                       \
   MEMBER(MatchingArgs, max_distance_m)       \
   MEMBER(MatchingArgs, min_normal_cosine)    \
   MEMBER(MatchingArgs, huber_sigmas)         \
   MEMBER(MatchingArgs, source_plane)         \
-  MEMBER(MatchingArgs, model_plane)
+  MEMBER(MatchingArgs, model_plane)          \
+  STRUCT(MeshBlockArgs)                      \
+  MEMBER(MeshBlockArgs, index)               \
+  MEMBER(MeshBlockArgs, first_vertex)        \
+  MEMBER(MeshBlockArgs, first_triangle)      \
+  MEMBER(MeshBlockArgs, neighbours)
 
 #endif

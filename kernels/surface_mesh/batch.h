@@ -5,7 +5,6 @@
 //              and the number of the row's first vertex in its block. A row's vertices are those of its edges in x,
 //              then in y, then in z.
 #include "shared/block_map.h"
-#include "surface_mesh/mesh_args.h"
 
 #define ROWS (BLOCK_SIZE * BLOCK_SIZE)
 #define PADDED_SIZE (BLOCK_SIZE + 3)

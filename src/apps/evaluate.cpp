@@ -88,11 +88,12 @@ void printRow(const char* name, const ErrorStatistics& statistics, double scale,
 
 void print(const TrajectoryError& error, const TrajectoryErrorOptions& options) {
   std::printf("trajectory: %zu of %zu poses have a true one\n", error.pairs.size(), error.estimated_poses);
-  char relative[40];
-  std::snprintf(relative, sizeof(relative), "relative, over %g s", options.rpe_interval_s);
+  char moved[40], turned[40];
+  std::snprintf(moved, sizeof(moved), "relative shift, over %g s", options.rpe_interval_s);
+  std::snprintf(turned, sizeof(turned), "relative turn, over %g s", options.rpe_interval_s);
   printRow("absolute (ATE)", error.ate_m, 1000.0, "mm");
-  printRow(relative, error.rpe_translation_m, 1000.0, "mm");
-  printRow(relative, error.rpe_rotation_deg, 1.0, "deg");
+  printRow(moved, error.rpe_translation_m, 1000.0, "mm");
+  printRow(turned, error.rpe_rotation_deg, 1.0, "deg");
 }
 
 void print(const MeshError& error) {

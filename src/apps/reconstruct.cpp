@@ -60,6 +60,7 @@ void addOptions(CLI::App& app, RunOptions& options, std::vector<double>& intrins
   app.add_option("--device", options.device, "OpenCL device: index, part of its name, cpu or gpu; `list` shows them");
   app.add_option("--depth-topic", options.recording.depth_topic, "of a bag, instead of the one found");
   app.add_option("--color-topic", options.recording.color_topic, "of a bag, instead of the one found");
+  app.add_flag("--color", map.color, "fuse colour, too: mesh.ply has the vertices' colours");
   app.add_flag("--no-mesh", options.no_mesh, "track and fuse only, for timing");
 }
 

@@ -18,6 +18,7 @@ struct Options {
   int width = 1280;
   int height = 960;
   double view_deg = 60.0;
+  bool shaded = false;
 };
 
 void declareOptions(CLI::App& app, Options& options) {
@@ -32,6 +33,7 @@ void declareOptions(CLI::App& app, Options& options) {
       ->excludes(view);
   app.add_option("--width", options.width, "of the picture, pixels")->check(CLI::Range(16, 16384));
   app.add_option("--height", options.height, "of the picture, pixels")->check(CLI::Range(16, 16384));
+  app.add_flag("--shaded", options.shaded, "grey and lit from the camera, even if the mesh has colours");
   app.add_option("--field-of-view", options.view_deg, "horizontal, degrees")->check(CLI::Range(1.0, 170.0));
 }
 
@@ -59,7 +61,7 @@ void render(const Options& options) {
   const CameraIntrinsics camera =
       pictureCamera(options.width, options.height, options.view_deg * CV_PI / 180.0);
   const Pose T_W_C = options.pose.empty() ? viewOf(mesh, camera, options.view) : poseFrom(options.pose);
-  writePicture(options.output, renderMesh(mesh, camera, T_W_C));
+  writePicture(options.output, renderMesh(mesh, camera, T_W_C, options.shaded ? MeshPaint::kShaded : MeshPaint::kColors));
   std::cout << options.output << ": " << mesh.triangles.size() << " triangles\n";
 }
 
@@ -67,7 +69,7 @@ void render(const Options& options) {
 }  // namespace depth_fusion
 
 int main(int argc, char** argv) {
-  CLI::App app("Draws a picture of a mesh: grey where seen from free space, red where seen from behind.");
+  CLI::App app("Draws a picture of a mesh: in its colours, dark where seen from behind, or shaded in grey and red.");
   depth_fusion::Options options;
   depth_fusion::declareOptions(app, options);
   CLI11_PARSE(app, argc, argv);

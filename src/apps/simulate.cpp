@@ -7,12 +7,12 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/simulation/simulated_recording.h"
+#include "recording/camera_file.h"
 #include "ros/recording.h"
 
 namespace depth_fusion {
 namespace {
 
-constexpr double kTumUnit_m = 1.0 / 5000.0;
 
 struct Arguments {
   std::string output;
@@ -61,8 +61,8 @@ void addOptions(CLI::App& app, Arguments& arguments) {
 bool isBag(const std::string& output) { return std::filesystem::path(output).extension() == ".bag"; }
 
 RgbdFrame asStored(RgbdFrame frame) {
-  frame.depth.convertTo(frame.depth, CV_16UC1, frame.depth_unit_m / kTumUnit_m);
-  frame.depth_unit_m = kTumUnit_m;
+  frame.depth.convertTo(frame.depth, CV_16UC1, frame.depth_unit_m * kTumDepthScale);
+  frame.depth_unit_m = 1.0 / kTumDepthScale;
   return frame;
 }
 

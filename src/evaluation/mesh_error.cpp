@@ -1,6 +1,5 @@
 #include "depth_fusion/evaluation/mesh_error.h"
 
-#include <algorithm>
 #include <cmath>
 #include <opencv2/core/utility.hpp>
 

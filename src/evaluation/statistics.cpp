@@ -3,32 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depth_fusion/common/percentile.h"
+
 namespace depth_fusion {
-namespace {
-
-double nearestRank(const std::vector<double>& sorted, double fraction) {
-  const double rank = std::ceil(fraction * static_cast<double>(sorted.size()));
-  return sorted[static_cast<size_t>(std::max(rank, 1.0)) - 1];
-}
-
-}  // namespace
 
 ErrorStatistics statisticsOf(const std::vector<double>& errors) {
   if (errors.empty()) return {};
-  std::vector<double> sorted = errors;
-  std::sort(sorted.begin(), sorted.end());
   double sum = 0.0, sum_of_squares = 0.0;
-  for (const double error : sorted) {
+  for (const double error : errors) {
     sum += error;
     sum_of_squares += error * error;
   }
   ErrorStatistics statistics;
-  statistics.count = sorted.size();
-  statistics.mean = sum / static_cast<double>(sorted.size());
-  statistics.rmse = std::sqrt(sum_of_squares / static_cast<double>(sorted.size()));
-  statistics.median = nearestRank(sorted, 0.5);
-  statistics.percentile95 = nearestRank(sorted, 0.95);
-  statistics.max = sorted.back();
+  statistics.count = errors.size();
+  statistics.mean = sum / static_cast<double>(errors.size());
+  statistics.rmse = std::sqrt(sum_of_squares / static_cast<double>(errors.size()));
+  statistics.median = percentile(errors, 0.5);
+  statistics.percentile95 = percentile(errors, 0.95);
+  statistics.max = *std::max_element(errors.begin(), errors.end());
   return statistics;
 }
 

@@ -14,6 +14,11 @@ inline size_t planeElements(const CameraIntrinsics& camera) {
   return static_cast<size_t>(pitchOf(camera.width)) * camera.height + 2 * IMAGE_GUARD;
 }
 
+// Vectors of simd_width pixels that cover a row.
+inline size_t vectorsAcross(const CameraIntrinsics& camera, int simd_width) {
+  return (camera.width + simd_width - 1) / simd_width;
+}
+
 inline CameraArgs toArgs(const CameraIntrinsics& camera) {
   return {static_cast<float>(camera.fx), static_cast<float>(camera.fy), static_cast<float>(camera.cx),
           static_cast<float>(camera.cy), camera.width, camera.height, pitchOf(camera.width)};

@@ -12,6 +12,7 @@
 namespace depth_fusion {
 namespace {
 
+constexpr size_t kColorBytes = 4;  // a voxel
 constexpr size_t kTransferBlocks = 16384;  // blocks that one upload of requests names
 
 size_t cube(int n) { return static_cast<size_t>(n) * static_cast<size_t>(n) * static_cast<size_t>(n); }
@@ -30,7 +31,8 @@ ParameterTable MapParameters::table() {
           {"block_size", &block_size, 4, 32, "voxels per axis of a block, a power of two (the paper's M)"},
           {"truncation_m", &truncation_m, 0.0, 10.0,
            "distance kept on both sides of a surface (the paper's delta); 0 = four voxels"},
-          {"pool_mib", &pool_mib, 1, 2047, "memory for voxels, allocated once"}};
+          {"pool_mib", &pool_mib, 1, 2047, "memory for voxels, allocated once; colour takes twice as much again"},
+          {"color", &color, 0, 1, "true: the map holds colour, where the recording has it"}};
 }
 
 GridArgs gridArgs(const BlockSparseMap& map) {
@@ -51,10 +53,11 @@ std::string blockSizeOption(const MapParameters& parameters) {
 }
 
 struct BlockSparseMap::Kernels {
-  Kernel assign, clear, withdraw;
+  Kernel assign, clear, clear_colors, withdraw;
   Kernels(ComputeContext& compute, const std::string& options)
       : assign(compute, "map/blocks.cl", "assign_blocks", options),
         clear(compute, "map/blocks.cl", "clear_blocks", options),
+        clear_colors(compute, "map/blocks.cl", "clear_colors", options),
         withdraw(compute, "map/blocks.cl", "withdraw_requests", options) {}
 };
 
@@ -73,8 +76,12 @@ BlockSparseMap::BlockSparseMap(ComputeContext& compute, const MapParameters& par
   const size_t limit = compute.impl().device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   check(capacity_ * block_bytes <= limit, "map/pool_mib is over the device's largest buffer, " +
                                               std::to_string(limit >> 20) + " MiB");
+  const size_t color_bytes = parameters_.color ? kColorBytes * capacity_ * cube(m) : 0;
+  check(color_bytes <= limit, "map/pool_mib is, with map/color, over the half of the device's largest buffer, " +
+                                  std::to_string(limit >> 20) + " MiB");
   offsets_ = DeviceBuffer(compute, 4 * cube(parameters_.blocks_per_axis), "the offsets of map/blocks_per_axis");
   voxels_ = DeviceBuffer(compute, capacity_ * block_bytes, "the voxels of map/pool_mib");
+  if (parameters_.color) colors_ = DeviceBuffer(compute, color_bytes, "the colours of map/color");
   block_indices_ = DeviceBuffer(compute, capacity_ * sizeof(Request), "the block indices of the map");
   block_states_ = DeviceBuffer(compute, capacity_ * sizeof(int), "the block states of the map");
   request_transfer_ = DeviceBuffer(compute, kTransferBlocks * sizeof(Request), "block requests");
@@ -128,6 +135,7 @@ size_t BlockSparseMap::allocate(const std::vector<BlockIndex>& blocks) {
       kernels_->assign.run(count, offsets_, block_indices_, block_states_, request_transfer_, slot_transfer_, count,
                            grid);
       kernels_->clear.run(count * voxel_groups, voxels_, slot_transfer_, count);
+      if (parameters_.color) kernels_->clear_colors.run(count * voxel_groups, colors_, slot_transfer_, count);
     } else {
       kernels_->withdraw.run(count, offsets_, request_transfer_, count, grid);
     }
@@ -148,8 +156,11 @@ BlockSparseMap::Usage BlockSparseMap::usage() const {
   Usage usage;
   usage.blocks = capacity_ - free_slots_.size();
   usage.capacity = capacity_;
-  usage.bytes = 2 * usage.blocks * cube(parameters_.block_size) + 4 * cube(parameters_.blocks_per_axis);
-  usage.pool_bytes = offsets_.bytes() + voxels_.bytes() + block_indices_.bytes() + block_states_.bytes();
+  const size_t voxels = usage.blocks * cube(parameters_.block_size);
+  usage.color_bytes = parameters_.color ? kColorBytes * voxels : 0;
+  usage.bytes = 2 * voxels + usage.color_bytes + 4 * cube(parameters_.blocks_per_axis);
+  usage.pool_bytes =
+      offsets_.bytes() + voxels_.bytes() + colors_.bytes() + block_indices_.bytes() + block_states_.bytes();
   return usage;
 }
 

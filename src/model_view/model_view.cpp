@@ -1,5 +1,8 @@
 #include "depth_fusion/model_view/model_view.h"
 
+#include <opencv2/imgproc.hpp>
+
+#include "depth_fusion/common/error.h"
 #include "depth_fusion/compute/device_image.h"
 #include "model_view/model_view_kernels.h"
 
@@ -7,6 +10,9 @@ namespace depth_fusion {
 namespace {
 
 constexpr int kFarFloatBits = 0x7f7fffff;  // the largest float
+constexpr size_t kPictureBytes = 4;        // a pixel
+
+size_t pixelsOf(const CameraIntrinsics& camera) { return static_cast<size_t>(camera.width) * camera.height; }
 
 size_t rangeTiles(const CameraIntrinsics& camera, int tile) {
   return static_cast<size_t>((camera.width + tile - 1) / tile) * ((camera.height + tile - 1) / tile);
@@ -14,7 +20,8 @@ size_t rangeTiles(const CameraIntrinsics& camera, int tile) {
 
 }  // namespace
 
-ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera)
+ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map,
+                                     const CameraIntrinsics& camera)
     : compute_(compute),
       map_(map),
       nearest_(compute, rangeTiles(camera, Kernels::kRangeTile) * sizeof(float), "ray ranges"),
@@ -49,6 +56,31 @@ const ModelView& ModelViewRenderer::render(const Pose& T_W_D, float min_range_m,
     compute_.finish();
   }
   return view_;
+}
+
+cv::Mat ModelViewRenderer::shadedPicture() {
+  allocatePicture();
+  kernels_->shadeView(view_, picture_);
+  return readPicture();
+}
+
+cv::Mat ModelViewRenderer::coloredPicture() {
+  check(map_.parameters().color, "a map without colour has no coloured view; set map/color");
+  allocatePicture();
+  kernels_->colorView(map_, view_, picture_);
+  return readPicture();
+}
+
+void ModelViewRenderer::allocatePicture() {
+  if (picture_.bytes() == 0)
+    picture_ = DeviceBuffer(compute_, kPictureBytes * pixelsOf(view_.camera), "a picture");
+}
+
+cv::Mat ModelViewRenderer::readPicture() const {
+  cv::Mat picture(view_.camera.height, view_.camera.width, CV_8UC4), bgr;
+  picture_.read(picture.data, kPictureBytes * pixelsOf(view_.camera));
+  cv::cvtColor(picture, bgr, cv::COLOR_BGRA2BGR);
+  return bgr;
 }
 
 }  // namespace depth_fusion

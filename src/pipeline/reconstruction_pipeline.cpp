@@ -37,7 +37,7 @@ ParameterTable PipelineParameters::table() {
         std::make_pair("texture_odometry", texture_odometry.table()),
         std::make_pair("icp_tracking", icp_tracking.table()),
         std::make_pair("relocalisation", relocalisation.table()), std::make_pair("tsdf_fusion", tsdf_fusion.table()),
-        std::make_pair("surface_mesh", surface_mesh.table())}) {
+        std::make_pair("color_fusion", color_fusion.table()), std::make_pair("surface_mesh", surface_mesh.table())}) {
     const ParameterTable rows = withPrefix(stage, table);
     all.insert(all.end(), rows.begin(), rows.end());
   }
@@ -56,6 +56,7 @@ ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const Pi
       fusion_(compute, map_, parameters.tsdf_fusion),
       renderer_(compute, map_, camera) {
   parameters_.map = map_.parameters();
+  if (parameters.map.color) color_fusion_ = std::make_unique<ColorFusion>(compute, map_, parameters.color_fusion);
 }
 
 FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
@@ -155,6 +156,10 @@ void ReconstructionPipeline::fuse(const RgbdFrame& frame, const DepthFrame& dept
   TrackingResult& tracking = result.tracking;
   if (map_.usage().blocks == 0) map_.reset(windowCentre(frame, parameters_.preprocessing, tracking.T_W_D));
   result.fusion = fusion_.integrate(depth, tracking.T_W_D, timers_);
+  if (color_fusion_) {
+    result.color = color_fusion_->integrate(frame, depth, tracking.T_W_D, fusion_.visibleBlocks(),
+                                            result.fusion.blocks_updated, timers_);
+  }
   if (result.fusion.blocks_updated > 0) return;
   tracking.status = TrackingStatus::kLost;
   tracking.reason = "no depth in range and in the map's window; see map/blocks_per_axis and preprocessing/max_range_m";

@@ -19,13 +19,9 @@ DepthPreprocessingKernels::DepthPreprocessingKernels(ComputeContext& compute)
       normals_(compute, kFile, "compute_normals"),
       tiles_(compute, kFile, "max_tiles") {}
 
-size_t DepthPreprocessingKernels::columns(const CameraIntrinsics& camera) const {
-  return (camera.width + simd_width_ - 1) / simd_width_;
-}
-
 void DepthPreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input, DeviceBuffer& depth,
                                               const CameraIntrinsics& camera, const RangeArgs& range) {
-  (is_u16 ? from_u16_ : from_f32_).run2d(columns(camera), camera.height, input, depth, toArgs(camera), range);
+  (is_u16 ? from_u16_ : from_f32_).run2d(vectorsAcross(camera, simd_width_), camera.height, input, depth, toArgs(camera), range);
 }
 
 void DepthPreprocessingKernels::compensateMotion(const DeviceBuffer& depth, DeviceBuffer& compensated,
@@ -35,7 +31,7 @@ void DepthPreprocessingKernels::compensateMotion(const DeviceBuffer& depth, Devi
 
 void DepthPreprocessingKernels::filterBilateral(const DeviceBuffer& depth, DeviceBuffer& filtered,
                                                 const CameraIntrinsics& camera, const BilateralArgs& args) {
-  bilateral_.run2d(columns(camera), camera.height, depth, filtered, toArgs(camera), args);
+  bilateral_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, filtered, toArgs(camera), args);
 }
 
 void DepthPreprocessingKernels::halveDepth(const DepthLevel& level, DepthLevel& half, float cutoff_sigmas) {
@@ -45,7 +41,7 @@ void DepthPreprocessingKernels::halveDepth(const DepthLevel& level, DepthLevel& 
 
 void DepthPreprocessingKernels::computeNormals(const DeviceBuffer& depth, DeviceBuffer& normals,
                                                const CameraIntrinsics& camera, float max_relative_step) {
-  normals_.run2d(columns(camera), camera.height, depth, normals, toArgs(camera),
+  normals_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, normals, toArgs(camera),
                  static_cast<int>(planeElements(camera)), max_relative_step);
 }
 

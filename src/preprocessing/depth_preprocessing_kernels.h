@@ -26,8 +26,6 @@ class DepthPreprocessingKernels {
   void maxTiles(const DeviceBuffer& depth, DeviceBuffer& tiles, const CameraIntrinsics& camera);
 
  private:
-  size_t columns(const CameraIntrinsics& camera) const;
-
   int simd_width_;
   Kernel from_u16_, from_f32_, compensate_motion_, bilateral_, halve_, normals_, tiles_;
 };

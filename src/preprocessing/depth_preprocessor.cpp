@@ -9,8 +9,6 @@
 namespace depth_fusion {
 namespace {
 
-std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
-
 SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParameters& parameters) {
   SensorMotionArgs motion{{}, {}, parameters.readout_s, parameters.stamp_delay_s};
   for (int i = 0; i < 3; ++i) {

@@ -7,8 +7,6 @@
 namespace depth_fusion {
 namespace {
 
-std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
-
 void checkSize(cv::Size size, const CameraIntrinsics& camera, const std::string& where,
                const std::string& source) {
   check(size.width == camera.width && size.height == camera.height,

@@ -3,6 +3,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "recording/camera_file.h"
+#include "recording/color_or_problem.h"
 #include "recording/folder_recording.h"
 #include "recording/image_file.h"
 #include "recording/recording_intrinsics.h"
@@ -66,7 +67,7 @@ class TumRecording : public Recording {
     frame.intrinsics = intrinsics_.camera;
     checkDepthSize(frame.depth, frame.intrinsics, depth_file.path);
     const TimedFile* color_file = nearestFile(color_files_, depth_file.stamp_s, max_pairing_gap_s_);
-    if (color_file != nullptr) frame.color = readColorImage(color_file->path);
+    if (color_file != nullptr) readColorOrProblem(frame, [&] { return readColorImage(color_file->path); });
     return frame;
   }
 

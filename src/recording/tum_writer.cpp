@@ -1,6 +1,5 @@
 // Writes recordings in the layout of the TUM RGB-D benchmark.
 #include <filesystem>
-#include <tuple>
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/recording/recording_writer.h"
@@ -17,13 +16,6 @@ void makeFolder(const std::string& path) {
   std::error_code failure;
   std::filesystem::create_directories(path, failure);
   check(!failure, path + ": the folder cannot be made: " + failure.message());
-}
-
-bool sameCamera(const CameraIntrinsics& a, const CameraIntrinsics& b) {
-  const auto numbers = [](const CameraIntrinsics& c) {
-    return std::make_tuple(c.width, c.height, c.fx, c.fy, c.cx, c.cy);
-  };
-  return numbers(a) == numbers(b);
 }
 
 class TumWriter : public RecordingWriter {

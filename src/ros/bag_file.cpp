@@ -1,6 +1,5 @@
 #include "ros/bag_file.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>

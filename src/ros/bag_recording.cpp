@@ -4,6 +4,7 @@
 #include <deque>
 #include <limits>
 
+#include "recording/color_or_problem.h"
 #include "ros/bag_images.h"
 #include "ros/bag_sources.h"
 #include "ros/recording.h"
@@ -80,7 +81,8 @@ class BagRecording : public Recording {
     frame.depth_unit_m = depth.unit_m;
     frame.intrinsics = sources_.intrinsics.camera;
     checkDepthSize(frame.depth, frame.intrinsics, depth_image.name);
-    if (const BagImage* color_image = nearestColor(frame.stamp_s)) frame.color = toColor(*color_image);
+    if (const BagImage* color_image = nearestColor(frame.stamp_s))
+      readColorOrProblem(frame, [&] { return toColor(*color_image); });
     return frame;
   }
 

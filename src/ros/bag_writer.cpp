@@ -6,6 +6,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "depth_fusion/common/error.h"
 #include "recording/depth_units.h"
@@ -153,6 +154,8 @@ class BagWriter : public RecordingWriter {
 }  // namespace
 
 std::unique_ptr<RecordingWriter> createBag(const std::string& path) {
+  std::error_code unreadable;
+  check(!std::filesystem::is_regular_file(path, unreadable), path + ": already exists; remove it or choose another name");
   return std::make_unique<BagWriter>(path);
 }
 

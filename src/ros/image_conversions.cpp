@@ -1,7 +1,6 @@
 #include "ros/image_conversions.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <opencv2/imgproc.hpp>

@@ -20,7 +20,7 @@ std::unique_ptr<Recording> openBag(const std::string& path, const RecordingOptio
 
 // A bag with the topics of openni2_launch: /camera/depth_registered/image_raw (16UC1, mm) and
 // /camera/rgb/image_raw (bgr8 or mono8), their camera_info, and the reference pose of the depth camera on /tf
-// (world -> camera_rgb_optical_frame). A file of that name is replaced.
+// (world -> camera_rgb_optical_frame). Throws Error if there is a file of that name.
 std::unique_ptr<RecordingWriter> createBag(const std::string& path);
 
 }  // namespace depth_fusion

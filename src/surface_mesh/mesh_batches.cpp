@@ -36,7 +36,6 @@ std::vector<MeshBlock> mortonOrderedBlocks(const BlockSparseMap& map) {
   for (const BlockSparseMap::Block& block : map.blocks()) {
     MeshBlock mesh_block;
     mesh_block.morton_code = mortonCode(block.index - map.origin());
-    mesh_block.slot = block.slot;
     ordered.push_back(mesh_block);
   }
   std::sort(ordered.begin(), ordered.end(),
@@ -48,7 +47,6 @@ MeshBlockArgs blockArgs(const BlockSparseMap& map, const MeshBlock& block) {
   MeshBlockArgs args{};
   for (int axis = 0; axis < 3; ++axis)
     args.index[axis] = map.origin()[axis] + gathered(block.morton_code >> axis);
-  args.slot = block.slot;
   args.first_vertex = block.first_vertex;
   return args;
 }

@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "depth_fusion/map/block_sparse_map.h"
-#include "surface_mesh/mesh_args.h"
+#include "shared/types.h"
 
 namespace depth_fusion {
 
 struct MeshBlock {
   uint64_t morton_code = 0;  // of the index in the window
-  int slot = 0;
   uint32_t vertices = 0;
   uint32_t triangles = 0;
   uint32_t first_vertex = 0;
@@ -22,7 +21,7 @@ struct MeshBlock {
 // All the blocks of the map along the Morton curve, on which neighbours are mostly near each other.
 std::vector<MeshBlock> mortonOrderedBlocks(const BlockSparseMap& map);
 
-// Index, slot and first vertex; the rest is for the batch to fill in.
+// Index and first vertex; the rest is for the batch to fill in.
 MeshBlockArgs blockArgs(const BlockSparseMap& map, const MeshBlock& block);
 
 struct BatchLimits {

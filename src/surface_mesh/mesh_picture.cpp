@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace depth_fusion {
 namespace {
@@ -10,24 +9,27 @@ namespace {
 constexpr float kNearest_m = 1e-3f;
 const cv::Vec3f kBackground(38.0f, 32.0f, 28.0f);
 const cv::Vec3f kFront(225.0f, 212.0f, 200.0f);
-const cv::Vec3f kBack(70.0f, 80.0f, 190.0f);
+const cv::Vec3f kTintOfShaded(0.31f, 0.38f, 0.95f);  // red
+const cv::Vec3f kTintOfColored(0.4f, 0.4f, 0.4f);
 constexpr float kAmbient = 0.15f;
 constexpr int kSubpixels = 2;  // each pixel is the mean of 2x2
 
 struct Corner {
-  float u, v;            // pixels
-  float inverse_depth;   // 1 / z, linear over the picture
-  float shade_by_depth;  // brightness / z, too
+  float u, v;                // pixels
+  float inverse_depth;       // 1 / z, linear over the picture
+  cv::Vec3f color_by_depth;  // BGR / z, too
 };
 
 struct Canvas {
   int width, height;
+  cv::Vec3f tint_from_behind;  // factors on a surface's colour
   std::vector<float> inverse_depths;
   std::vector<cv::Vec3f> colours;
 
-  Canvas(int w, int h)
+  Canvas(int w, int h, const cv::Vec3f& tint)
       : width(w),
         height(h),
+        tint_from_behind(tint),
         inverse_depths(static_cast<size_t>(w) * h, 0.0f),
         colours(static_cast<size_t>(w) * h, kBackground) {}
 };
@@ -37,21 +39,27 @@ CameraIntrinsics magnified(const CameraIntrinsics& camera, int factor) {
           camera.fy * factor,    (camera.cx + 0.5) * factor - 0.5, (camera.cy + 0.5) * factor - 0.5};
 }
 
+// Brightness of a grey surface lit from the camera.
+float shadeOf(const Eigen::Vector3f& p_C, const Eigen::Vector3f& normal_C) {
+  return kAmbient + (1.0f - kAmbient) * std::abs(normal_C.dot(p_C.normalized()));
+}
+
 std::vector<Corner> projectVertices(const TriangleMesh& mesh, const CameraIntrinsics& camera,
-                                    const Pose& T_W_C) {
+                                    const Pose& T_W_C, bool colored) {
   const Eigen::Isometry3f T_C_W = T_W_C.inverse().cast<float>();
   std::vector<Corner> corners;
   corners.reserve(mesh.vertices.size());
-  for (const MeshVertex& vertex : mesh.vertices) {
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const MeshVertex& vertex = mesh.vertices[i];
     const Eigen::Vector3f p_C = T_C_W * vertex.position_W;
     const Eigen::Vector3f normal_C = T_C_W.linear() * vertex.normal_W;
     const float inverse_depth = p_C.z() > kNearest_m ? 1.0f / p_C.z() : 0.0f;
-    const float towards_camera = std::abs(normal_C.dot(p_C.normalized()));
-    const float shade = kAmbient + (1.0f - kAmbient) * towards_camera;
+    const cv::Vec3f color = colored ? cv::Vec3f(mesh.colors[i][2], mesh.colors[i][1], mesh.colors[i][0])
+                                    : kFront * shadeOf(p_C, normal_C);
     corners.push_back(
         {static_cast<float>(camera.fx) * p_C.x() * inverse_depth + static_cast<float>(camera.cx),
          static_cast<float>(camera.fy) * p_C.y() * inverse_depth + static_cast<float>(camera.cy),
-         inverse_depth, shade * inverse_depth});
+         inverse_depth, color * inverse_depth});
   }
   return corners;
 }
@@ -72,9 +80,10 @@ void drawPixel(Canvas& canvas, const Corner (&t)[3], float whole, int u, int v) 
   const size_t pixel = static_cast<size_t>(v) * canvas.width + u;
   if (inverse_depth <= canvas.inverse_depths[pixel]) return;
   canvas.inverse_depths[pixel] = inverse_depth;
-  const float shade =
-      (w0 * t[0].shade_by_depth + w1 * t[1].shade_by_depth + w2 * t[2].shade_by_depth) / inverse_depth;
-  canvas.colours[pixel] = (whole < 0.0f ? kFront : kBack) * shade;
+  const cv::Vec3f color_by_depth =
+      w0 * t[0].color_by_depth + w1 * t[1].color_by_depth + w2 * t[2].color_by_depth;
+  const cv::Vec3f color = color_by_depth * (1.0f / inverse_depth);
+  canvas.colours[pixel] = whole < 0.0f ? color : cv::Vec3f(color.mul(canvas.tint_from_behind));
 }
 
 void drawTriangle(Canvas& canvas, const Corner (&t)[3]) {
@@ -108,10 +117,12 @@ cv::Mat averaged(const Canvas& canvas, int width, int height) {
 
 }  // namespace
 
-cv::Mat renderMesh(const TriangleMesh& mesh, const CameraIntrinsics& camera, const Pose& T_W_C) {
+cv::Mat renderMesh(const TriangleMesh& mesh, const CameraIntrinsics& camera, const Pose& T_W_C,
+                   MeshPaint paint) {
+  const bool colored = paint == MeshPaint::kColors && !mesh.colors.empty();
   const CameraIntrinsics fine = magnified(camera, kSubpixels);
-  const std::vector<Corner> corners = projectVertices(mesh, fine, T_W_C);
-  Canvas canvas(fine.width, fine.height);
+  const std::vector<Corner> corners = projectVertices(mesh, fine, T_W_C, colored);
+  Canvas canvas(fine.width, fine.height, colored ? kTintOfColored : kTintOfShaded);
   for (const MeshTriangle& triangle : mesh.triangles) {
     const Corner t[3] = {corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]};
     if (t[0].inverse_depth > 0.0f && t[1].inverse_depth > 0.0f && t[2].inverse_depth > 0.0f)

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/common/percentile.h"
 #include "depth_fusion/surface_mesh/mesh_picture.h"
 
 namespace depth_fusion {
@@ -28,12 +29,6 @@ const std::map<std::string, Eigen::Matrix3d>& orientations() {
   return of_view;
 }
 
-double quantile(std::vector<double> values, double fraction) {
-  const auto nth = values.begin() + std::lround(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
 // One direction of the picture, across or down, whose borders are at the slopes `low` and `high`. The points
 // lie between the borders of a camera at (sideways, depth) if sideways - low * depth <= low_limit and
 // sideways - high * depth >= high_limit.
@@ -54,7 +49,7 @@ Borders bordersAround(const std::vector<double>& sideways, const std::vector<dou
     from_high.push_back(sideways[i] - high * depths[i]);
   }
   const double outliers = (1.0 - kSeenFraction) / 4.0;
-  return {low, high, quantile(from_low, outliers), quantile(from_high, 1.0 - outliers)};
+  return {low, high, percentile(from_low, outliers), percentile(from_high, 1.0 - outliers)};
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ constexpr int kAbsent = -1;
 struct PlyHeader {
   MeshSize size;
   size_t vertex_bytes = 0;
-  std::array<int, 6> offsets;  // of x y z nx ny nz in a vertex, or kAbsent
+  std::array<int, 6> offsets;        // of x y z nx ny nz in a vertex, or kAbsent
+  std::array<int, 3> color_offsets;  // of red green blue, or kAbsent
 };
 
 class PlyFile {
@@ -67,6 +68,7 @@ size_t bytesOfType(const std::string& type) {
 
 void readVertexProperty(const PlyFile& file, std::istringstream& words, PlyHeader& header) {
   static const std::array<std::string, 6> kNames = {"x", "y", "z", "nx", "ny", "nz"};
+  static const std::array<std::string, 3> kColorNames = {"red", "green", "blue"};
   std::string type;
   std::string name;
   words >> type >> name;
@@ -77,6 +79,10 @@ void readVertexProperty(const PlyFile& file, std::istringstream& words, PlyHeade
     file.require(bytesOfType(type) == sizeof(float),
                  "has '" + name + "' as " + type + "; only float can be read");
     header.offsets[wanted - kNames.begin()] = static_cast<int>(header.vertex_bytes);
+  }
+  const auto color = std::find(kColorNames.begin(), kColorNames.end(), name);
+  if (color != kColorNames.end() && (type == "uchar" || type == "uint8")) {
+    header.color_offsets[color - kColorNames.begin()] = static_cast<int>(header.vertex_bytes);
   }
   header.vertex_bytes += bytesOfType(type);
 }
@@ -100,6 +106,7 @@ void checkHeader(const PlyFile& file, const PlyHeader& header) {
 PlyHeader readHeader(PlyFile& file) {
   PlyHeader header;
   header.offsets.fill(kAbsent);
+  header.color_offsets.fill(kAbsent);
   file.require(file.line() == "ply", "is no PLY file");
   std::string element;
   for (std::string line = file.line(); line != "end_header"; line = file.line()) {
@@ -123,6 +130,8 @@ PlyHeader readHeader(PlyFile& file) {
     }
   }
   checkHeader(file, header);
+  const auto& color = header.color_offsets;
+  header.size.colored = std::count(color.begin(), color.end(), kAbsent) == 0;
   return header;
 }
 
@@ -134,15 +143,23 @@ MeshVertex vertexFrom(const char* bytes, const std::array<int, 6>& offsets) {
   return {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
 }
 
-void readVertices(PlyFile& file, const PlyHeader& header, std::vector<MeshVertex>& vertices) {
-  vertices.reserve(header.size.vertices);
+MeshColor colorFrom(const char* bytes, const std::array<int, 3>& offsets) {
+  MeshColor color;
+  for (int i = 0; i < 3; ++i) color[i] = static_cast<uint8_t>(bytes[offsets[i]]);
+  return color;
+}
+
+void readVertices(PlyFile& file, const PlyHeader& header, TriangleMesh& mesh) {
+  mesh.begin(header.size);
   std::vector<char> bytes;
-  while (vertices.size() < header.size.vertices) {
-    const size_t count = std::min<size_t>(kVerticesPerRead, header.size.vertices - vertices.size());
+  while (mesh.vertices.size() < header.size.vertices) {
+    const size_t count = std::min<size_t>(kVerticesPerRead, header.size.vertices - mesh.vertices.size());
     bytes.resize(count * header.vertex_bytes);
     file.read(bytes.data(), bytes.size());
     for (size_t i = 0; i < count; ++i) {
-      vertices.push_back(vertexFrom(&bytes[i * header.vertex_bytes], header.offsets));
+      const char* vertex = &bytes[i * header.vertex_bytes];
+      mesh.vertices.push_back(vertexFrom(vertex, header.offsets));
+      if (header.size.colored) mesh.colors.push_back(colorFrom(vertex, header.color_offsets));
     }
   }
 }
@@ -170,7 +187,7 @@ TriangleMesh readPly(const std::string& path) {
   file.requireBytesLeft(header.size.vertices * header.vertex_bytes +
                         header.size.triangles * (1 + sizeof(MeshTriangle)));
   TriangleMesh mesh;
-  readVertices(file, header, mesh.vertices);
+  readVertices(file, header, mesh);
   readTriangles(file, header, mesh.triangles);
   return mesh;
 }

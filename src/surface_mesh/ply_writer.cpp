@@ -12,6 +12,7 @@
 namespace depth_fusion {
 namespace {
 
+constexpr size_t kColoredVertexBytes = sizeof(MeshVertex) + sizeof(MeshColor);
 constexpr size_t kFaceBytes = 1 + sizeof(MeshTriangle);
 constexpr size_t kFacesPerWrite = 16384;
 constexpr unsigned char kCorners = 3;
@@ -20,8 +21,10 @@ std::string header(const MeshSize& size) {
   return "ply\nformat binary_little_endian 1.0\ncomment depth_fusion, metres\nelement vertex " +
          std::to_string(size.vertices) +
          "\nproperty float x\nproperty float y\nproperty float z\n"
-         "property float nx\nproperty float ny\nproperty float nz\nelement face " +
-         std::to_string(size.triangles) + "\nproperty list uchar int vertex_indices\nend_header\n";
+         "property float nx\nproperty float ny\nproperty float nz\n" +
+         (size.colored ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "") +
+         "element face " + std::to_string(size.triangles) +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
 // Devices and pipes are not ours to remove.
@@ -47,12 +50,25 @@ void PlyWriter::begin(const MeshSize& size) {
   const std::string text = header(size);
   writeAt(0, text.data(), text.size());
   vertex_offset_ = text.size();
-  face_offset_ = vertex_offset_ + size.vertices * sizeof(MeshVertex);
+  colored_ = size.colored;
+  face_offset_ = vertex_offset_ + size.vertices * (colored_ ? kColoredVertexBytes : sizeof(MeshVertex));
 }
 
-void PlyWriter::addVertices(const MeshVertex* vertices, size_t count) {
-  writeAt(vertex_offset_, vertices, count * sizeof(MeshVertex));
-  vertex_offset_ += count * sizeof(MeshVertex);
+void PlyWriter::addVertices(const MeshVertex* vertices, const MeshColor* colors, size_t count) {
+  const void* data = vertices;
+  size_t bytes = count * sizeof(MeshVertex);
+  if (colored_) {
+    bytes = count * kColoredVertexBytes;
+    colored_vertices_.resize(bytes);
+    unsigned char* next = colored_vertices_.data();
+    for (size_t i = 0; i < count; ++i, next += kColoredVertexBytes) {
+      std::memcpy(next, &vertices[i], sizeof(MeshVertex));
+      std::memcpy(next + sizeof(MeshVertex), &colors[i], sizeof(MeshColor));
+    }
+    data = colored_vertices_.data();
+  }
+  writeAt(vertex_offset_, data, bytes);
+  vertex_offset_ += bytes;
 }
 
 void PlyWriter::addTriangles(const MeshTriangle* triangles, size_t count) {
@@ -98,8 +114,9 @@ void PlyWriter::fail(const std::string& action) const {
 
 void writePly(const std::string& path, const TriangleMesh& mesh) {
   PlyWriter writer(path);
-  writer.begin({mesh.vertices.size(), mesh.triangles.size()});
-  writer.addVertices(mesh.vertices.data(), mesh.vertices.size());
+  const bool colored = !mesh.colors.empty();
+  writer.begin({mesh.vertices.size(), mesh.triangles.size(), colored});
+  writer.addVertices(mesh.vertices.data(), colored ? mesh.colors.data() : nullptr, mesh.vertices.size());
   writer.addTriangles(mesh.triangles.data(), mesh.triangles.size());
   writer.finish();
 }

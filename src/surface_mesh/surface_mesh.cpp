@@ -9,15 +9,8 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kCountingShare = 0.3;  // of the time
-
-void report(const MeshProgress& progress, double fraction) {
-  if (progress) progress(fraction);
-}
-
 // First pass: how many vertices and triangles each block has.
-void countBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map, std::vector<MeshBlock>& blocks,
-                 const MeshProgress& progress) {
+void countBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map, std::vector<MeshBlock>& blocks) {
   std::vector<MeshBlockArgs> batch;
   for (size_t begin = 0; begin < blocks.size(); begin += batch.size()) {
     const size_t end = std::min(begin + kernels.limits().blocks, blocks.size());
@@ -29,7 +22,6 @@ void countBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map, std::ve
       blocks[i].vertices = totals[i - begin].vertices;
       blocks[i].triangles = totals[i - begin].triangles;
     }
-    report(progress, kCountingShare * static_cast<double>(end) / static_cast<double>(blocks.size()));
   }
 }
 
@@ -53,23 +45,20 @@ MeshSize numberVertices(std::vector<MeshBlock>& blocks) {
 
 // Second pass: the mesh itself. Returns the number of batches.
 size_t emitBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map,
-                  const std::vector<MeshBlock>& blocks, const MeshSize& size, MeshSink& sink,
-                  const MeshProgress& progress) {
+                  const std::vector<MeshBlock>& blocks, bool colored, MeshSink& sink) {
   MeshBatcher batcher(map, blocks, kernels.limits());
   std::vector<MeshVertex> vertices;
+  std::vector<MeshColor> colors;
   std::vector<MeshTriangle> triangles;
   size_t batches = 0;
-  for (uint64_t emitted = 0; !batcher.done(); ++batches) {
+  for (; !batcher.done(); ++batches) {
     const MeshBatch batch = batcher.next();
     kernels.classify(batch.blocks);
     kernels.emitVertices(batch, vertices);
-    sink.addVertices(vertices.data(), vertices.size());
+    if (colored) kernels.colorVertices(batch, colors);
+    sink.addVertices(vertices.data(), colored ? colors.data() : nullptr, vertices.size());
     kernels.emitTriangles(batch, triangles);
     sink.addTriangles(triangles.data(), triangles.size());
-    emitted += batch.vertices;
-    const double fraction =
-        static_cast<double>(emitted) / static_cast<double>(std::max<uint64_t>(size.vertices, 1));
-    report(progress, kCountingShare + (1.0 - kCountingShare) * fraction);
   }
   return batches;
 }
@@ -78,12 +67,12 @@ size_t emitBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map,
 
 ParameterTable SurfaceMeshParameters::table() {
   return {{"min_weight", &min_weight, 0, 255, "weight from which on a voxel counts as known"},
-          {"max_batch_blocks", &max_batch_blocks, 8, 65536,
-           "blocks extracted at a time; fewer take less memory"}};
+          {"max_batch_blocks", &max_batch_blocks, 8, 8192,
+           "blocks extracted at a time, if 16 MiB hold so many; fewer take less memory"}};
 }
 
 MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockSparseMap& map, MeshSink& sink,
-                                 SurfaceMeshParameters parameters, const MeshProgress& progress) {
+                                 SurfaceMeshParameters parameters) {
   validate(parameters.table());
   SurfaceMeshKernels kernels(compute, map, parameters.min_weight,
                              static_cast<size_t>(parameters.max_batch_blocks));
@@ -91,12 +80,12 @@ MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockSparseMap& map, M
   MeshStatistics statistics;
   statistics.blocks = blocks.size();
   statistics.device_bytes = kernels.deviceBytes();
-  countBlocks(kernels, map, blocks, progress);
+  countBlocks(kernels, map, blocks);
   statistics.size = numberVertices(blocks);
+  statistics.size.colored = map.parameters().color;
   sink.begin(statistics.size);
-  statistics.batches = emitBlocks(kernels, map, blocks, statistics.size, sink, progress);
+  statistics.batches = emitBlocks(kernels, map, blocks, statistics.size.colored, sink);
   sink.finish();
-  report(progress, 1.0);
   return statistics;
 }
 

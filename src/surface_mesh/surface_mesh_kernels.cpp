@@ -15,8 +15,8 @@ constexpr size_t kBatchVertices = size_t{1} << 18;
 constexpr size_t kBatchTriangles = size_t{1} << 19;
 constexpr size_t kRowMaskBytes = 16;
 constexpr size_t kRowBytes = 16;
+constexpr size_t kColorBytes = 4;
 
-static_assert(sizeof(MeshBlockArgs) == 56, "MeshBlockArgs is laid out as in kernels");
 static_assert(sizeof(MeshVertex) == 24, "a vertex is six floats in kernels and files");
 static_assert(sizeof(MeshTriangle) == 12, "a triangle is three integers in kernels and files");
 
@@ -45,12 +45,15 @@ SurfaceMeshKernels::SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& 
       row_triangles_(compute, limits_.blocks * rows_ * sizeof(uint32_t), kPurpose),
       totals_(compute, limits_.blocks * sizeof(Totals), kPurpose),
       vertices_(compute, kBatchVertices * sizeof(MeshVertex), kPurpose),
+      vertex_colors_(compute, map.parameters().color ? kBatchVertices * kColorBytes : 1, kPurpose),
       triangles_(compute, kBatchTriangles * sizeof(MeshTriangle), kPurpose),
       gather_(compute, "surface_mesh/gather_blocks.cl", "gather_blocks", blockSizeOption(map.parameters())),
       classify_(compute, "surface_mesh/classify_rows.cl", "classify_rows", blockSizeOption(map.parameters())),
       scan_(compute, "surface_mesh/classify_rows.cl", "scan_rows", blockSizeOption(map.parameters())),
       emit_vertices_(compute, "surface_mesh/emit_vertices.cl", "emit_vertices",
                      blockSizeOption(map.parameters())),
+      color_vertices_(compute, "surface_mesh/color_vertices.cl", "color_vertices",
+                      blockSizeOption(map.parameters())),
       emit_triangles_(compute, "surface_mesh/emit_triangles.cl", "emit_triangles",
                       blockSizeOption(map.parameters())) {
   table_.write(marchingCubesTable());
@@ -59,7 +62,7 @@ SurfaceMeshKernels::SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& 
 size_t SurfaceMeshKernels::deviceBytes() const {
   size_t bytes = 0;
   for (const DeviceBuffer* buffer : {&table_, &block_args_, &volume_, &row_masks_, &row_vertices_,
-                                     &row_triangles_, &totals_, &vertices_, &triangles_}) {
+                                     &row_triangles_, &totals_, &vertices_, &vertex_colors_, &triangles_}) {
     bytes += buffer->bytes();
   }
   return bytes;
@@ -83,6 +86,16 @@ void SurfaceMeshKernels::emitVertices(const MeshBatch& batch, std::vector<MeshVe
                      static_cast<int>(batch.core_blocks), batch.first_vertex, map_.parameters().voxel_size_m);
   vertices.resize(batch.vertices);
   vertices_.read(vertices.data(), vertices.size() * sizeof(MeshVertex));
+}
+
+void SurfaceMeshKernels::colorVertices(const MeshBatch& batch, std::vector<MeshColor>& colors) {
+  color_vertices_.run(batch.vertices, vertex_colors_, vertices_, map_.offsets(), map_.colors(),
+                      static_cast<int>(batch.vertices), gridArgs(map_));
+  const auto rgba = vertex_colors_.read<std::array<uint8_t, kColorBytes>>(batch.vertices);
+  colors.resize(batch.vertices);
+  std::transform(rgba.begin(), rgba.end(), colors.begin(), [](const auto& c) {
+    return MeshColor{c[0], c[1], c[2]};
+  });
 }
 
 void SurfaceMeshKernels::emitTriangles(const MeshBatch& batch, std::vector<MeshTriangle>& triangles) {

@@ -25,6 +25,8 @@ class SurfaceMeshKernels {
   std::vector<Totals> totals(size_t count) const;
   // Of the batch classified last; the vectors keep their memory from batch to batch.
   void emitVertices(const MeshBatch& batch, std::vector<MeshVertex>& vertices);
+  // Of the vertices emitted last; the map must have colour.
+  void colorVertices(const MeshBatch& batch, std::vector<MeshColor>& colors);
   void emitTriangles(const MeshBatch& batch, std::vector<MeshTriangle>& triangles);
 
  private:
@@ -34,8 +36,8 @@ class SurfaceMeshKernels {
   size_t padded_size_;  // voxels per axis of a gathered block
   BatchLimits limits_;
   DeviceBuffer table_, block_args_, volume_, row_masks_, row_vertices_, row_triangles_, totals_, vertices_,
-      triangles_;
-  Kernel gather_, classify_, scan_, emit_vertices_, emit_triangles_;
+      vertex_colors_, triangles_;
+  Kernel gather_, classify_, scan_, emit_vertices_, color_vertices_, emit_triangles_;
 };
 
 }  // namespace depth_fusion

@@ -18,16 +18,6 @@ using Eigen::Vector3d;
 // A corner is found to about a pixel of its level, its patch aligned to a fraction of one.
 constexpr double kCornerSigma_px = 1.0;
 
-std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
-
-// Why the colour image cannot be used, or nothing.
-std::string colorProblem(const RgbdFrame& frame, const CameraIntrinsics& camera) {
-  if (frame.color.empty()) return "no colour image";
-  if (frame.color.cols == camera.width && frame.color.rows == camera.height) return {};
-  return "the colour image is " + sizeText(frame.color.cols, frame.color.rows) + ", its intrinsics are for " +
-         sizeText(camera.width, camera.height);
-}
-
 std::optional<Vector3d> pointOn(const Feature& feature, const CameraIntrinsics& camera,
                                 const Vector2d& pixel) {
   if (!feature.surface_C) return std::nullopt;
@@ -142,9 +132,9 @@ TextureOdometryResult TextureOdometry::process(const RgbdFrame& frame) {
 
 FrameFeatures TextureOdometry::extract(const RgbdFrame& frame) const {
   FrameFeatures result;
-  result.camera = frame.color_intrinsics.value_or(frame.intrinsics);
+  result.camera = colorCamera(frame);
   result.T_C_D = frame.T_C_D.value_or(Pose::Identity());
-  result.reason = colorProblem(frame, result.camera);
+  result.reason = colorProblem(frame);
   if (!result.reason.empty()) return result;
   detectFeatures(frame.color, parameters_, result);
   findSurfaces(frame, result);

@@ -1,8 +1,6 @@
 // Typed launches of kernels/tsdf_fusion/*.cl. Lists come back in any order: sort what must be repeatable.
 #pragma once
 
-#include <vector>
-
 #include "compute/kernel.h"
 #include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
 #include "shared/types.h"

@@ -160,12 +160,30 @@ TEST_F(Applications, render_draws_the_mesh) {
   EXPECT_GT(picture.size(), 10000u);
 }
 
+TEST_F(Applications, color_is_fused_drawn_and_reported) {
+  const std::string output = inFolder("color_out");
+  const AppRun run = runApp("reconstruct", {"--input", room(), "--output", output, "--color", "--voxel-size", "0.01"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const Json report = readReport(output);
+  EXPECT_EQ(report["frames"]["colored"], std::stoi(kFrames));
+  EXPECT_EQ(report["map"]["color_bytes"].get<uint64_t>(), report["map"]["blocks"].get<uint64_t>() * 512 * 4);
+  EXPECT_EQ(readReport(out())["map"]["color_bytes"], 0);
+  EXPECT_NE(fileBytes(output + "/mesh.ply").substr(0, 400).find("property uchar red"), std::string::npos);
+  const auto picture = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--mesh", output + "/mesh.ply", "--output", inFolder("color.png"), "--width",
+                                       "160", "--height", "120"});
+    EXPECT_EQ(runApp("render", arguments).status, 0);
+    return fileBytes(inFolder("color.png"));
+  };
+  EXPECT_NE(picture({}), picture({"--shaded"}));
+}
+
 TEST_F(Applications, help_names_every_option) {
   const AppRun run = runApp("reconstruct", {"--help"});
   EXPECT_EQ(run.status, 0);
   for (const std::string option :
        {"--input", "--output", "--voxel-size", "--blocks-per-axis", "--block-size", "--truncation",
-        "--max-range", "--intrinsics", "--params", "--trajectory", "--max-frames", "--device"}) {
+        "--max-range", "--intrinsics", "--params", "--trajectory", "--max-frames", "--device", "--color"}) {
     EXPECT_NE(run.output.find(option + " "), std::string::npos) << option;
   }
 }

@@ -86,6 +86,27 @@ TEST_F(BadInput, truncated_depth_image_is_named_and_the_rest_fused) {
   EXPECT_EQ(readReport(out())["frames"]["unreadable"], 1);
 }
 
+TEST_F(BadInput, damaged_colour_is_said_once_and_costs_no_frame) {
+  const std::string recording = roomCopy();
+  for (const size_t index : {1, 3, 4}) {
+    const std::string image = readTimedFiles(recording + "/rgb.txt").at(index).path;
+    fs::resize_file(image, fs::file_size(image) / 2);
+  }
+  const AppRun run = reconstruct(recording, {"--color", "--voxel-size", "0.01"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
+  EXPECT_NE(run.errors.find("truncated"), std::string::npos) << run.errors;
+  EXPECT_EQ(readReport(out())["frames"]["tracked"], kFrames);
+  EXPECT_EQ(readReport(out())["frames"]["colored"], kFrames - 3);
+}
+
+TEST_F(BadInput, colour_asked_for_but_not_recorded) {
+  const std::string recording = roomCopy();
+  fs::remove(recording + "/rgb.txt");
+  expectComplaint(reconstruct(recording, {"--color"}), {"--color", recording, "no frame"});
+  expectResults(kFrames);
+}
+
 TEST_F(BadInput, depth_image_of_another_size_is_named_and_the_rest_fused) {
   const std::string image = depthImage(roomCopy(), 2);
   writePng(image, cv::Mat(240, 320, CV_16UC1, cv::Scalar(5000)));

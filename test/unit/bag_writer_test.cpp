@@ -100,5 +100,14 @@ TEST(BagWriter, says_when_it_cannot_write) {
       {path, "cannot be written"});
 }
 
+TEST(BagWriter, refuses_to_overwrite_a_bag) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "room.bag";
+  createBag(path)->finish();
+  const auto size = fs::file_size(path);
+  expectError([&] { createBag(path); }, {path, "already exists", "another name"});
+  EXPECT_EQ(fs::file_size(path), size);
+}
+
 }  // namespace
 }  // namespace depth_fusion

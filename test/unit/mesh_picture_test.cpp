@@ -53,6 +53,23 @@ TEST(MeshPicture, edgesFallOnTheProjectedPixels) {
   EXPECT_TRUE(isBackground(picture.at<cv::Vec3b>(50, 70)));
 }
 
+TEST(MeshPicture, drawsTheColorsUnlessItIsToShade) {
+  const CameraIntrinsics camera = {64, 48, 50.0, 50.0, 31.5, 23.5};
+  TriangleMesh mesh;
+  addSquare(mesh, {0.0f, 0.0f, 1.0f}, 0.3f, true);
+  for (int i = 0; i < 4; ++i) mesh.colors.push_back({static_cast<uint8_t>((i & 1) == 0 ? 40 : 240), 100, 20});
+  const cv::Mat picture = renderMesh(mesh, camera, Pose::Identity());
+  const cv::Vec3b left = picture.at<cv::Vec3b>(24, 18);
+  const cv::Vec3b right = picture.at<cv::Vec3b>(24, 45);
+  EXPECT_NEAR(left[0], 20, 1);
+  EXPECT_NEAR(left[1], 100, 1);
+  EXPECT_NEAR(left[2], 140 - 100 * 13.5 / 15.0, 8);
+  EXPECT_NEAR(right[2], 140 + 100 * 13.5 / 15.0, 8);
+  const cv::Mat shaded = renderMesh(mesh, camera, Pose::Identity(), MeshPaint::kShaded);
+  EXPECT_FALSE(isReddish(shaded.at<cv::Vec3b>(24, 45)));
+  EXPECT_GT(shaded.at<cv::Vec3b>(24, 45)[0], 150);
+}
+
 TEST(MeshPicture, everyViewSeesTheWholeMeshFilled) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {

@@ -52,6 +52,33 @@ class Ply : public testing::Test {
   const std::string path_ = testing::TempDir() + "depth_fusion_ply_test_" + std::to_string(getpid()) + ".ply";
 };
 
+TEST_F(Ply, readsTheColorsItWrote) {
+  TriangleMesh mesh = tetrahedron();
+  mesh.colors = {{0, 1, 2}, {255, 128, 7}, {13, 10, 0}, {200, 201, 202}};
+  writePly(path_, mesh);
+  EXPECT_NE(readText().find("property uchar red\nproperty uchar green\nproperty uchar blue\n"), std::string::npos);
+  const TriangleMesh read = readPly(path_);
+  EXPECT_EQ(read.colors, mesh.colors);
+  EXPECT_EQ(read.triangles, mesh.triangles);
+  ASSERT_EQ(read.vertices.size(), mesh.vertices.size());
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+    EXPECT_EQ(read.vertices[i].position_W, mesh.vertices[i].position_W);
+    EXPECT_EQ(read.vertices[i].normal_W, mesh.vertices[i].normal_W);
+  }
+}
+
+// Other tools write colours of other types, or a part of them; neither is one that can be drawn.
+TEST_F(Ply, colorsOfOtherTypesAreLeftOut) {
+  writeText(
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float red\nproperty uchar green\nproperty uchar blue\nelement face 0\n"
+      "property list uchar int vertex_indices\nend_header\n" +
+      std::string(18, '\0'));
+  const TriangleMesh read = readPly(path_);
+  EXPECT_EQ(read.vertices.size(), 1u);
+  EXPECT_TRUE(read.colors.empty());
+}
+
 TEST_F(Ply, readsWhatItWrote) {
   const TriangleMesh mesh = tetrahedron();
   writePly(path_, mesh);
@@ -72,7 +99,7 @@ TEST_F(Ply, piecesGiveTheSameFile) {
   writer.begin({4, 4});
   for (int i = 0; i < 4; ++i) {
     writer.addTriangles(&mesh.triangles[i], 1);
-    writer.addVertices(&mesh.vertices[i], 1);
+    writer.addVertices(&mesh.vertices[i], nullptr, 1);
   }
   writer.finish();
   EXPECT_EQ(readText(), whole);
@@ -108,7 +135,7 @@ TEST_F(Ply, unfinishedFileIsRemoved) {
   {
     PlyWriter writer(path_);
     writer.begin({4, 4});
-    writer.addVertices(tetrahedron().vertices.data(), 4);
+    writer.addVertices(tetrahedron().vertices.data(), nullptr, 4);
     EXPECT_TRUE(exists(path_));
   }
   EXPECT_FALSE(exists(path_));

@@ -115,12 +115,20 @@ TEST(SevenScenesRecording, names_bad_files_and_goes_on) {
   expectBadFirst({pose, "no rotation"});
   writeText(pose, "-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
   expectBadFirst({pose, "no rotation"});
-  const std::string color = frameFile(folder, "000002", ".color.png");
-  fs::resize_file(color, fs::file_size(color) - 5);
-  expectBadFirst({color, "truncated"});
   const std::string depth = frameFile(folder, "000002", ".depth.png");
   fs::resize_file(depth, fs::file_size(depth) / 2);
   expectBadFirst({depth, "truncated"});
+}
+
+TEST(SevenScenesRecording, truncated_colour_costs_no_depth) {
+  const TemporaryFolder folder;
+  makeFolder(folder);
+  const std::string color = frameFile(folder, "000002", ".color.png");
+  fs::resize_file(color, fs::file_size(color) - 5);
+  const auto frame = openFolder(folder.path(), {})->next();
+  EXPECT_FALSE(frame->depth.empty());
+  EXPECT_TRUE(frame->color.empty());
+  EXPECT_NE(frame->color_problem.find(color), std::string::npos) << frame->color_problem;
 }
 
 TEST(SevenScenesRecording, names_bad_intrinsics_and_folders_without_depth) {
@@ -135,6 +143,19 @@ TEST(SevenScenesRecording, names_bad_intrinsics_and_folders_without_depth) {
   fs::remove(first);
   fs::remove(frameFile(folder, "000010", ".depth.png"));
   expectError([&] { openFolder(folder.path(), {}); }, {folder.path(), "no recording"});
+}
+
+TEST(SevenScenesRecording, knows_the_data_sets_colour_camera_and_no_other) {
+  const TemporaryFolder folder;
+  cv::imwrite(frameFile(folder, "000000", ".depth.png"), cv::Mat(480, 640, CV_16UC1, cv::Scalar(1500)));
+  cv::imwrite(frameFile(folder, "000000", ".color.png"), cv::Mat(480, 640, CV_8UC3, cv::Scalar(1, 2, 3)));
+  const auto frame = openFolder(folder.path(), {})->next();
+  ASSERT_TRUE(frame->color_intrinsics && frame->T_C_D);
+  EXPECT_EQ(frame->color_intrinsics->fx, 525.0);
+  EXPECT_NEAR(frame->T_C_D->translation().norm(), 0.025, 0.003);
+  writeText(folder / "camera-intrinsics.txt", "525 0 320\n0 525 240\n0 0 1\n");
+  const auto registered = openFolder(folder.path(), {})->next();
+  EXPECT_FALSE(registered->color_intrinsics || registered->T_C_D);
 }
 
 TEST(SevenScenesRecording, reads_the_real_redkitchen) {

@@ -4,20 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <map>
 
-#include "depth_fusion/common/error.h"
-#include "reference/map_from_distance.h"
+#include "support/surface_mesh_fixture.h"
 
 namespace depth_fusion {
 namespace {
 
 using DirectedSide = std::pair<uint32_t, uint32_t>;
-
-SignedDistance sphere(const Eigen::Vector3d& centre, double radius) {
-  return [=](const Eigen::Vector3d& p) { return (p - centre).norm() - radius; };
-}
 
 SignedDistance plane(const Eigen::Vector3d& normal, double offset) {
   return [=](const Eigen::Vector3d& p) { return normal.normalized().dot(p) - offset; };
@@ -105,35 +99,6 @@ void expectSameMesh(const TriangleMesh& mesh, const TriangleMesh& reference, flo
   EXPECT_LT(normal_error, 1e-4f);
 }
 
-bool sameBytes(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.triangles == b.triangles && a.vertices.size() == b.vertices.size() &&
-         std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(MeshVertex)) == 0;
-}
-
-class SurfaceMesh : public testing::Test {
- protected:
-  static ComputeContext& compute() {
-    static ComputeContext context;
-    return context;
-  }
-
-  static MapParameters parameters(int block_size, int blocks_per_axis = 32) {
-    MapParameters parameters;
-    parameters.voxel_size_m = 0.005f;
-    parameters.truncation_m = 0.02f;
-    parameters.block_size = block_size;
-    parameters.blocks_per_axis = blocks_per_axis;
-    parameters.pool_mib = 64;
-    return parameters;
-  }
-
-  static TriangleMesh meshOf(BlockSparseMap& map, const SurfaceMeshParameters& parameters = {}) {
-    TriangleMesh mesh;
-    exportSurfaceMesh(compute(), map, mesh, parameters);
-    return mesh;
-  }
-};
-
 class SurfaceMeshOfBlockSize : public SurfaceMesh, public testing::WithParamInterface<int> {};
 
 INSTANTIATE_TEST_SUITE_P(BlockSizes, SurfaceMeshOfBlockSize, testing::Values(4, 8, 16, 32));
@@ -216,20 +181,6 @@ TEST_F(SurfaceMesh, bumpsHaveNoDegenerateTrianglesAndNoCracks) {
   }
 }
 
-TEST_F(SurfaceMesh, smallBatchesGiveTheSameBytes) {
-  BlockSparseMap map(compute(), parameters(4));
-  fillMap(map, sphere({0.001, 0.0, 0.0}, 0.1), Eigen::Vector3i::Constant(-8), 16);
-  TriangleMesh whole;
-  TriangleMesh pieces;
-  EXPECT_EQ(exportSurfaceMesh(compute(), map, whole).batches, 1u);
-  SurfaceMeshParameters small;
-  small.max_batch_blocks = 9;
-  EXPECT_GT(exportSurfaceMesh(compute(), map, pieces, small).batches, 100u);
-  ASSERT_GT(whole.triangles.size(), 1000u);
-  EXPECT_TRUE(sameBytes(whole, pieces));
-  EXPECT_TRUE(sameBytes(whole, meshOf(map)));
-}
-
 TEST_P(SurfaceMeshOfBlockSize, voxelsBelowTheMinimumWeightAreUnknown) {
   const int m = GetParam();
   const int blocks = std::max(2, 32 / m);
@@ -251,54 +202,6 @@ TEST_P(SurfaceMeshOfBlockSize, voxelsBelowTheMinimumWeightAreUnknown) {
   EXPECT_GT(mesh.triangles.size(), 0u);
   expectSameMesh(mesh, ReferenceMarchingCubes(grid, map.parameters().voxel_size_m).mesh(),
                  map.parameters().voxel_size_m);
-}
-
-TEST_F(SurfaceMesh, parametersOutOfRangeAreErrors) {
-  BlockSparseMap map(compute(), parameters(8));
-  SurfaceMeshParameters parameters;
-  parameters.min_weight = 256;
-  EXPECT_THROW(meshOf(map, parameters), Error);
-  parameters = {};
-  parameters.max_batch_blocks = 7;
-  EXPECT_THROW(meshOf(map, parameters), Error);
-}
-
-TEST_F(SurfaceMesh, failingSinkIsAnError) {
-  struct FullSink final : MeshSink {
-    void begin(const MeshSize&) override {}
-    void addVertices(const MeshVertex*, size_t) override { throw Error("full"); }
-    void addTriangles(const MeshTriangle*, size_t) override {}
-    void finish() override { FAIL() << "finished after a failure"; }
-  };
-  BlockSparseMap map(compute(), parameters(8));
-  fillMap(map, sphere(Eigen::Vector3d::Zero(), 0.05), Eigen::Vector3i::Constant(-2), 4);
-  FullSink sink;
-  EXPECT_THROW(exportSurfaceMesh(compute(), map, sink), Error);
-  EXPECT_GT(meshOf(map).triangles.size(), 0u);
-}
-
-TEST_F(SurfaceMesh, emptyMapGivesAnEmptyMesh) {
-  BlockSparseMap map(compute(), parameters(8));
-  TriangleMesh mesh;
-  const MeshStatistics statistics = exportSurfaceMesh(compute(), map, mesh);
-  EXPECT_EQ(statistics.size.vertices, 0u);
-  EXPECT_EQ(statistics.size.triangles, 0u);
-  EXPECT_TRUE(mesh.triangles.empty());
-}
-
-TEST_F(SurfaceMesh, reportsProgressUpToOneAndItsSize) {
-  BlockSparseMap map(compute(), parameters(8));
-  fillMap(map, sphere(Eigen::Vector3d::Zero(), 0.05), Eigen::Vector3i::Constant(-2), 4);
-  std::vector<double> fractions;
-  TriangleMesh mesh;
-  const MeshStatistics statistics =
-      exportSurfaceMesh(compute(), map, mesh, {}, [&](double fraction) { fractions.push_back(fraction); });
-  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
-  EXPECT_EQ(fractions.back(), 1.0);
-  EXPECT_EQ(statistics.size.vertices, mesh.vertices.size());
-  EXPECT_EQ(statistics.size.triangles, mesh.triangles.size());
-  EXPECT_EQ(statistics.blocks, map.usage().blocks);
-  EXPECT_LT(statistics.device_bytes, size_t{64} << 20);
 }
 
 }  // namespace

@@ -8,9 +8,6 @@
 
 namespace depth_fusion {
 
-// Nearest-rank percentile of the samples (fraction in [0, 1]); 0 without samples.
-double percentile(std::vector<double> samples, double fraction);
-
 class StageTimers {
  public:
   // Measures from construction to destruction.

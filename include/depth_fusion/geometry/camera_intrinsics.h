@@ -1,6 +1,8 @@
 // Pinhole camera without distortion.
 #pragma once
 
+#include <string>
+
 namespace depth_fusion {
 
 // Focal lengths and principal point in pixels; the centre of the top left pixel is (0, 0).
@@ -15,6 +17,12 @@ struct CameraIntrinsics {
 
   bool valid() const { return width > 0 && height > 0 && fx > 0.0 && fy > 0.0; }
 };
+
+inline bool sameCamera(const CameraIntrinsics& a, const CameraIntrinsics& b) {
+  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy;
+}
+
+inline std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
 // The intrinsics of the image in which each pixel covers 2x2 pixels of the given one.
 inline CameraIntrinsics halved(const CameraIntrinsics& camera) {

@@ -17,6 +17,7 @@ struct MapParameters {
   int block_size = 8;
   float truncation_m = 0.0f;  // 0 = four voxels
   int pool_mib = 512;
+  bool color = false;
 
   ParameterTable table();
 };
@@ -25,7 +26,8 @@ struct MapParameters {
 // of its voxels in the pool, -1 = empty), and the pool of voxels, two bytes each: M^3 signed distance bytes (-128 = chi)
 // followed by M^3 weight bytes a slot. The host keeps the list of free slots. Block (i, j, k) covers the voxels
 // M*(i, j, k) and on; voxel v samples the point voxel_size_m * v of W; a block's address in `offsets` is its index
-// modulo N in each axis, so that the window may start anywhere.
+// modulo N in each axis, so that the window may start anywhere. With `color`, a third buffer holds four bytes more a voxel:
+// blue, green, red and weight (0 = none), M^3 of them a slot.
 class BlockSparseMap {
  public:
   using BlockIndex = Eigen::Vector3i;
@@ -33,7 +35,8 @@ class BlockSparseMap {
   struct Usage {
     size_t blocks = 0;      // in use
     size_t capacity = 0;    // blocks that the pool holds
-    size_t bytes = 0;       // 2 * blocks * M^3 + 4 * N^3, the paper's formula
+    size_t bytes = 0;       // 2 * blocks * M^3 + 4 * N^3, the paper's formula; 6 in place of 2 with colour
+    size_t color_bytes = 0;  // of `bytes`
     size_t pool_bytes = 0;  // device memory really allocated for the map
   };
 
@@ -69,6 +72,8 @@ class BlockSparseMap {
 
   DeviceBuffer& offsets() { return offsets_; }
   DeviceBuffer& voxels() { return voxels_; }
+  // Holds nothing without MapParameters::color.
+  DeviceBuffer& colors() { return colors_; }
   // Four ints a slot: block index x, y, z, and 1 if in use, else 0.
   DeviceBuffer& blockIndices() { return block_indices_; }
   // An int a slot: bits BLOCK_HAS_DATA, BLOCK_NEAR_SURFACE.
@@ -81,7 +86,7 @@ class BlockSparseMap {
   MapParameters parameters_;
   size_t capacity_ = 0;
   BlockIndex origin_ = BlockIndex::Zero();
-  DeviceBuffer offsets_, voxels_, block_indices_, block_states_, request_transfer_, slot_transfer_;
+  DeviceBuffer offsets_, voxels_, colors_, block_indices_, block_states_, request_transfer_, slot_transfer_;
   std::vector<int> free_slots_;
   std::vector<BlockIndex> slot_blocks_;
   std::vector<bool> slot_in_use_;

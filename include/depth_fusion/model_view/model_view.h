@@ -28,11 +28,20 @@ class ModelViewRenderer {
   // Casts rays through the map between min_range_m and max_range_m. The result stays valid until the next call.
   const ModelView& render(const Pose& T_W_D, float min_range_m, float max_range_m, StageTimers& timers);
 
+  // Pictures of the last view, CV_8UC3 BGR: grey and lit from the camera; in the map's colours, grey where it has none.
+  cv::Mat shadedPicture();
+  // Throws Error if the map holds no colour.
+  cv::Mat coloredPicture();
+
  private:
+  void allocatePicture();
+  cv::Mat readPicture() const;
+
   ComputeContext& compute_;
   BlockSparseMap& map_;
   ModelView view_;
   DeviceBuffer nearest_, farthest_, coarse_;
+  DeviceBuffer picture_;  // allocated for the first one
   std::unique_ptr<Kernels> kernels_;
 };
 

@@ -1,6 +1,7 @@
 // One frame's way through all the stages.
 #pragma once
 
+#include "depth_fusion/color_fusion/color_fusion.h"
 #include "depth_fusion/icp_tracking/icp_tracker.h"
 #include "depth_fusion/model_view/model_view.h"
 #include "depth_fusion/relocalisation/relocaliser.h"
@@ -17,6 +18,7 @@ struct PipelineParameters {
   IcpTrackingParameters icp_tracking;
   RelocalisationParameters relocalisation;
   FusionParameters tsdf_fusion;
+  ColorFusionParameters color_fusion;
   SurfaceMeshParameters surface_mesh;
 
   // The rows of all the stages, named "<stage>/<name>".
@@ -26,6 +28,7 @@ struct PipelineParameters {
 struct FrameResult {
   TrackingResult tracking;
   FusionResult fusion;  // all zero if the frame was not fused
+  ColorFusionResult color;
 };
 
 // Tracks and fuses frame by frame. W is the first fused frame's camera frame, or that of the given
@@ -72,6 +75,7 @@ class ReconstructionPipeline {
   IcpTracker tracker_;
   Relocaliser relocaliser_;
   TsdfFusion fusion_;
+  std::unique_ptr<ColorFusion> color_fusion_;  // null without map/color
   ModelViewRenderer renderer_;
   const ModelView* view_ = nullptr;  // of the last fused frame; none before the first
   std::optional<StampedPose> tracked_;    // the frame before; none if that was lost

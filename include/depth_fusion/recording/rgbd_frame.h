@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 
 #include "depth_fusion/geometry/camera_intrinsics.h"
 #include "depth_fusion/geometry/pose.h"
@@ -14,11 +15,25 @@ struct RgbdFrame {
   cv::Mat depth;  // CV_16UC1 in units of depth_unit_m, or CV_32FC1 in units of depth_unit_m; 0, NaN = none
   double depth_unit_m = 1.0;    // metres a unit of `depth` (0.001 for millimetres)
   cv::Mat color;                // CV_8UC3 BGR or CV_8UC1, or empty; nearest in time to `depth`
+  std::string color_problem;    // why `color` is empty though the recording has an image
   CameraIntrinsics intrinsics;  // of the depth camera; width and height equal those of `depth`
   std::optional<CameraIntrinsics>
       color_intrinsics;       // unset: colour has the depth camera's, depth is registered to it
   std::optional<Pose> T_C_D;  // unset: depth is registered to colour
   std::optional<Pose> T_W_D;  // reference pose, where the recording has one for this very frame
 };
+
+// Of the frame's colour image.
+inline CameraIntrinsics colorCamera(const RgbdFrame& frame) { return frame.color_intrinsics.value_or(frame.intrinsics); }
+
+// Why the frame's colour cannot be used; empty if it can.
+inline std::string colorProblem(const RgbdFrame& frame) {
+  if (!frame.color_problem.empty()) return frame.color_problem;
+  if (frame.color.empty()) return "no colour image";
+  const CameraIntrinsics camera = colorCamera(frame);
+  if (frame.color.cols == camera.width && frame.color.rows == camera.height) return {};
+  return "the colour image is " + sizeText(frame.color.cols, frame.color.rows) + ", its intrinsics are for " +
+         sizeText(camera.width, camera.height);
+}
 
 }  // namespace depth_fusion

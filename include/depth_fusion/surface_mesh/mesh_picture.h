@@ -11,9 +11,15 @@
 
 namespace depth_fusion {
 
-// The triangles in front of the camera, lit from the camera, bluish grey seen from free space and red seen
-// from behind. Triangles that reach behind the camera are left out. CV_8UC3, BGR.
-cv::Mat renderMesh(const TriangleMesh& mesh, const CameraIntrinsics& camera, const Pose& T_W_C);
+enum class MeshPaint {
+  kColors,  // the vertices' colours as they are, dark where seen from behind; a mesh without is shaded
+  kShaded,  // bluish grey, lit from the camera, red where seen from behind
+};
+
+// The triangles in front of the camera. Triangles that reach behind the camera are left out.
+// CV_8UC3, BGR.
+cv::Mat renderMesh(const TriangleMesh& mesh, const CameraIntrinsics& camera, const Pose& T_W_C,
+                   MeshPaint paint = MeshPaint::kColors);
 
 // A camera of the given size and field of view with its principal point in the middle.
 CameraIntrinsics pictureCamera(int width, int height, double horizontal_view_rad);

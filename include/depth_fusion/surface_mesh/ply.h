@@ -1,4 +1,5 @@
-// Meshes as binary PLY files: x y z nx ny nz as floats, faces as lists of three ints.
+// Meshes as binary PLY files: x y z nx ny nz as floats, red green blue as uchars if the mesh is coloured, faces as lists
+// of three ints.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ class PlyWriter final : public MeshSink {
   PlyWriter& operator=(const PlyWriter&) = delete;
 
   void begin(const MeshSize& size) override;
-  void addVertices(const MeshVertex* vertices, size_t count) override;
+  void addVertices(const MeshVertex* vertices, const MeshColor* colors, size_t count) override;
   void addTriangles(const MeshTriangle* triangles, size_t count) override;
   void finish() override;
 
@@ -32,13 +33,14 @@ class PlyWriter final : public MeshSink {
   int file_ = -1;
   uint64_t vertex_offset_ = 0;
   uint64_t face_offset_ = 0;
-  std::vector<unsigned char> faces_;
+  bool colored_ = false;
+  std::vector<unsigned char> colored_vertices_, faces_;
 };
 
 void writePly(const std::string& path, const TriangleMesh& mesh);
 
-// Reads a binary little-endian PLY file with float x y z, with or without nx ny nz, among any other numbers
-// of a vertex, and triangles. Throws Error naming the path and what is wrong.
+// Reads a binary little-endian PLY file with float x y z, with or without nx ny nz and uchar red
+// green blue, among any other numbers of a vertex, and triangles. Throws Error naming the path and what is wrong.
 TriangleMesh readPly(const std::string& path);
 
 }  // namespace depth_fusion

@@ -1,8 +1,6 @@
 // Marching cubes over the block-sparse map.
 #pragma once
 
-#include <functional>
-
 #include "depth_fusion/common/parameters.h"
 #include "depth_fusion/map/block_sparse_map.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
@@ -11,7 +9,7 @@ namespace depth_fusion {
 
 struct SurfaceMeshParameters {
   int min_weight = 1;
-  int max_batch_blocks = 16384;
+  int max_batch_blocks = 3072;
 
   ParameterTable table();
 };
@@ -23,15 +21,12 @@ struct MeshStatistics {
   size_t device_bytes = 0;  // allocated for the export, whatever the size of the map
 };
 
-// Called with the fraction done, in [0, 1].
-using MeshProgress = std::function<void(double)>;
-
 // Extracts the surface between the voxels with a negative and those with a positive distance. A cell emits
 // triangles if its eight voxels are known. Cells share their vertices across blocks and batches, so the mesh
 // has no cracks, and closed surfaces are watertight. The same map gives the same bytes on the same device.
 // The voxels must not change meanwhile. Throws Error if the mesh has more than 2^31 - 1 vertices or the sink
-// fails.
+// fails. The vertices have colours if the map has.
 MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockSparseMap& map, MeshSink& sink,
-                                 SurfaceMeshParameters parameters = {}, const MeshProgress& progress = {});
+                                 SurfaceMeshParameters parameters = {});
 
 }  // namespace depth_fusion

@@ -36,6 +36,9 @@ class TsdfFusion {
   // empty.
   FusionResult integrate(const DepthFrame& frame, const Pose& T_W_D, StageTimers& timers);
 
+  // Slots of the blocks that the last frame updated, FusionResult::blocks_updated of them.
+  const DeviceBuffer& visibleBlocks() const { return visible_; }
+
  private:
   void allocateBlocks(const DepthFrame& frame, const Pose& T_W_D, FusionResult& result);
 

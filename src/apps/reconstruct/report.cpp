@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "depth_fusion/common/percentile.h"
 #include "recording/text_file.h"
 
 namespace depth_fusion {
@@ -53,7 +54,8 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
       {"device", compute.selfTestReport()},
       {"parameters", parametersJson(pipeline.parameters())},
       {"frames",
-       {{"read", counts.read}, {"tracked", counts.tracked}, {"lost", counts.lost}, {"unreadable", counts.unreadable}}},
+       {{"read", counts.read}, {"tracked", counts.tracked}, {"lost", counts.lost},
+         {"unreadable", counts.unreadable}, {"colored", counts.colored}}},
       {"tracking", trackingJson(counts, pipeline)},
       {"frame_ms", frame},
       {"stage_ms", stages},
@@ -61,6 +63,7 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
        {{"blocks", usage.blocks},
         {"capacity", usage.capacity},
         {"bytes", usage.bytes},
+        {"color_bytes", usage.color_bytes},
         {"pool_bytes", usage.pool_bytes}}},
       {"peak_rss_bytes", peakRssBytes()},
       {"tracking_peak_rss_bytes", tracking_peak_rss_bytes}};

@@ -21,6 +21,7 @@ struct RunCounts {
   size_t degenerate = 0;  // of the tracked, those whose pose is the prior's in some direction
   size_t lost = 0;
   size_t unreadable = 0;
+  size_t colored = 0;  // of the tracked ones: with colour in the map
   std::vector<Loss> losses;
 };
 

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -11,6 +12,7 @@
 
 #include "apps/reconstruct/report.h"
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/common/percentile.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "ros/recording.h"
@@ -36,6 +38,8 @@ class Run {
   void noteLoss(const std::string& reason);
   // An event of the frame, on a line of its own.
   void say(const std::string& event) const;
+  // Says the first time that a frame's colour cannot be read.
+  void noteColor(const RgbdFrame& frame);
   void showProgress(bool last);
   // 0 before the first frame.
   double medianFrame_ms() const;
@@ -55,6 +59,7 @@ class Run {
   std::string status_;
   bool is_lost_ = false;  // the frame before
   bool pool_was_full_ = false;
+  bool color_was_bad_ = false;
   bool failed_ = false;
 };
 
@@ -80,6 +85,8 @@ int Run::execute() {
   check(pipeline_ != nullptr, options_.input + ": no frame could be read");
   if (counts_.tracked == 0)
     complain("no frame of " + options_.input + " was fused; the last one is " + status_);
+  if (options_.parameters.map.color && counts_.colored == 0)
+    complain("--color: no frame of " + options_.input + " has a colour image that can be used");
   writeResults();
   return failed_ ? 1 : 0;
 }
@@ -91,6 +98,7 @@ void Run::fuseRecording() {
     if (!pipeline_) {
       pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, frame->intrinsics);
     }
+    noteColor(*frame);
     fuseFrame(*frame);
     showProgress(false);
   }
@@ -136,6 +144,7 @@ void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
   ++counts_.tracked;
   const bool degenerate = tracking.status == TrackingStatus::kDegenerate;
   if (degenerate) ++counts_.degenerate;
+  if (result.color.fused) ++counts_.colored;
   status_ = degenerate ? "degenerate: " + tracking.reason : "tracking";
   trajectory_.push_back({frame.stamp_s, tracking.T_W_D});
   if (result.fusion.blocks_allocated < result.fusion.blocks_requested && !pool_was_full_) {
@@ -156,6 +165,13 @@ void Run::noteLoss(const std::string& reason) {
   is_lost_ = true;
 }
 
+void Run::noteColor(const RgbdFrame& frame) {
+  if (frame.color_problem.empty() || color_was_bad_) return;
+  color_was_bad_ = true;
+  std::cerr << "reconstruct: " << frame.color_problem << "; only the frame's depth is used, and so with others like it"
+            << std::endl;
+}
+
 void Run::say(const std::string& event) const {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   std::cout << (terminal ? "\r" : "") << "frame " << counts_.read << ": " << event << (terminal ? "\033[K" : "")
@@ -166,8 +182,9 @@ void Run::showProgress(bool last) {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   if (!terminal && last == (counts_.read % 50 == 0)) return;
   const double frame_ms = medianFrame_ms();
+  const size_t all = recording_->frameCount();
   std::printf("%sframe %zu/%zu  %.1f ms (%.0f fps)  %zu blocks  %zu lost  %-30s%s", terminal ? "\r" : "",
-              counts_.read, recording_->frameCount(), frame_ms, frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0,
+              counts_.read, options_.max_frames == 0 ? all : std::min(all, options_.max_frames), frame_ms, frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0,
               pipeline_->map().usage().blocks, counts_.lost, status_.c_str(), terminal && !last ? "" : "\n");
   std::fflush(stdout);
 }

@@ -1,4 +1,4 @@
-#include "depth_fusion/common/stage_timers.h"
+#include "depth_fusion/common/percentile.h"
 
 #include <algorithm>
 #include <cmath>
