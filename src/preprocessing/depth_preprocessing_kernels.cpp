@@ -26,7 +26,7 @@ void DepthPreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& i
 
 void DepthPreprocessingKernels::compensateMotion(const DeviceBuffer& depth, DeviceBuffer& compensated,
                                                  const CameraIntrinsics& camera, const SensorMotionArgs& motion) {
-  compensate_motion_.run2d(columns(camera), camera.height, depth, compensated, toArgs(camera), motion);
+  compensate_motion_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, compensated, toArgs(camera), motion);
 }
 
 void DepthPreprocessingKernels::filterBilateral(const DeviceBuffer& depth, DeviceBuffer& filtered,
