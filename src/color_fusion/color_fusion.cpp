@@ -14,8 +14,8 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kMeanFrames = 20.0;     // over which the mean correction is taken
-constexpr double kAnchor = 0.3;          // the part of it that is taken back
+constexpr double kMeanFrames = 40.0;     // over which the mean correction is taken
+constexpr double kAnchor = 0.12;         // the part of it that is taken back
 constexpr double kSharpestDecay = 0.99;  // a frame
 constexpr double kLeastSharpnessWeight = 0.03;
 
