@@ -39,8 +39,9 @@ const RenderedView& secondView() {
   return view;
 }
 
-TextureOdometryResult motionBetween(const RgbdFrame& previous, const RgbdFrame& current) {
-  TextureOdometry odometry({});
+TextureOdometryResult motionBetween(const RgbdFrame& previous, const RgbdFrame& current,
+                                    const TextureOdometryParameters& parameters = {}) {
+  TextureOdometry odometry(parameters);
   odometry.process(previous);
   return odometry.process(current);
 }
@@ -152,10 +153,12 @@ TEST(TextureOdometry, TheSameAtEveryRun) {
 
 TEST(TextureOdometry, CovarianceIsThatOfTheErrors) {
   constexpr int kTrials = 30;
+  TextureOdometryParameters parameters;
+  parameters.sigma_scale = 1.0f;
   Vector6d squared_errors = Vector6d::Zero(), variances = Vector6d::Zero();
   for (int trial = 0; trial < kTrials; ++trial) {
     const TextureOdometryResult result =
-        motionBetween(sensed(firstView(), 100 + 2 * trial), sensed(secondView(), 101 + 2 * trial));
+        motionBetween(sensed(firstView(), 100 + 2 * trial), sensed(secondView(), 101 + 2 * trial), parameters);
     ASSERT_TRUE(result.found) << result.reason;
     const Pose error = errorOf(result, someMotion());
     const Eigen::AngleAxisd rotation(error.linear());
