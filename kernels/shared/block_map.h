@@ -17,6 +17,6 @@ inline int block_address(int3 block, const GridArgs grid) {
   return in_window.x + n * (in_window.y + n * in_window.z);
 }
 
-// Byte offsets of a block's distances and weights in the voxel pool.
+// Byte offsets of a block's distances and certainties in the voxel pool.
 inline size_t block_distances(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS); }
-inline size_t block_weights(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS) + BLOCK_VOXELS; }
+inline size_t block_certainties(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS) + BLOCK_VOXELS; }

@@ -246,7 +246,7 @@ TEST_P(SurfaceMeshOfBlockSize, voxelsBelowTheMinimumWeightAreUnknown) {
     if (weight(voxel) < 200) grid.at(voxel) = -128;
   });
   SurfaceMeshParameters parameters;
-  parameters.min_weight = 200;
+  parameters.min_certainty = 200;
   const TriangleMesh mesh = meshOf(map, parameters);
   EXPECT_GT(mesh.triangles.size(), 0u);
   expectSameMesh(mesh, ReferenceMarchingCubes(grid, map.parameters().voxel_size_m).mesh(),
@@ -256,7 +256,7 @@ TEST_P(SurfaceMeshOfBlockSize, voxelsBelowTheMinimumWeightAreUnknown) {
 TEST_F(SurfaceMesh, parametersOutOfRangeAreErrors) {
   BlockSparseMap map(compute(), parameters(8));
   SurfaceMeshParameters parameters;
-  parameters.min_weight = 256;
+  parameters.min_certainty = 256;
   EXPECT_THROW(meshOf(map, parameters), Error);
   parameters = {};
   parameters.max_batch_blocks = 7;

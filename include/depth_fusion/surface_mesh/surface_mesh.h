@@ -10,7 +10,7 @@
 namespace depth_fusion {
 
 struct SurfaceMeshParameters {
-  int min_weight = 1;
+  int min_certainty = 1;
   int max_batch_blocks = 16384;
 
   ParameterTable table();
