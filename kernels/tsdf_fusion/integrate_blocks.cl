@@ -77,7 +77,7 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
     vchar distance = VLOAD(distances + voxel);
     const vfloat old_steps = TO_VFLOAT(distance);
     const vint known = old_steps != TSDF_CHI;
-    const vint seen = (measured.depth_m > 0.0f) & (surface.along_ray_m >= -grid.truncation_m);
+    const vint seen = (measured.depth_m > 0.0f) & (steps >= -TSDF_MAX);
     const vint beyond = steps > TSDF_MAX + args.free_space_sigmas * steps_per_m * sigma_m;
     const vint hit = seen & NOT(beyond);
     const vint freed = seen & beyond & known;

@@ -69,7 +69,7 @@ __kernel void list_visible_blocks(__global const int4 *block_indices, __global i
   for (int y = y0 / DEPTH_TILE; y <= y1 / DEPTH_TILE; ++y) {
     for (int x = x0 / DEPTH_TILE; x <= x1 / DEPTH_TILE; ++x) farthest = fmax(farthest, max_tiles[y * tile_columns + x]);
   }
-  if (farthest <= 0.0f || nearest > farthest + grid.truncation_m) return;
+  if (farthest <= 0.0f || nearest > farthest + grid.truncation_m / MIN_COSINE) return;
   block_states[slot] = 0;
   visible[atomic_inc(count)] = slot;
 }
