@@ -107,7 +107,7 @@ typedef struct {
   float max_weight;         // weighted: W_max
   float process_variance_m2;  // Kalman: Q
   float free_space_sigmas;  // how far, beyond the truncation, the surface must be behind a voxel that is free
-  float free_space_rate;    // the part of its certainty that a free voxel loses
+  float free_space_kept;    // the part of its certainty that a free voxel keeps
   int min_certainty;        // below, a free voxel becomes chi
   int frame;                // number of the frame, for the rounding's dither
 } FusionArgs;

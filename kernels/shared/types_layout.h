@@ -45,7 +45,7 @@
   MEMBER(FusionArgs, max_weight)             \
   MEMBER(FusionArgs, process_variance_m2)    \
   MEMBER(FusionArgs, free_space_sigmas)      \
-  MEMBER(FusionArgs, free_space_rate)        \
+  MEMBER(FusionArgs, free_space_kept)        \
   MEMBER(FusionArgs, min_certainty)          \
   MEMBER(FusionArgs, frame)                  \
   STRUCT(MatchingArgs)                       \

@@ -43,6 +43,7 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
   __global char *distances = voxels + block_distances(slot);
   __global uchar *certainties = (__global uchar *)voxels + block_certainties(slot);
   const float steps_per_m = TSDF_MAX / grid.truncation_m;
+  const float free_steps_per_m = args.free_space_sigmas * steps_per_m;
 
   // Offsets of a vector's voxels from its first; a vector is a row of a block, or several.
   const vfloat lane_i = TO_VFLOAT(LANE_INDICES & (BLOCK_SIZE - 1)) * size;
@@ -71,31 +72,35 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
     const MeasuredDistance surface =
         measured_distance(points, measured, ray_length, measurements, normals, plane, camera, grid.truncation_m,
                           args.depth_step_m);
-    const vfloat sigma_m = AXIAL_SIGMA_M(sensor, measured.depth_m) * surface.slope / measured.accuracy;
+    const vfloat axial_m = AXIAL_SIGMA_M(sensor, measured.depth_m) * surface.slope;
     const vfloat steps = surface.distance_m * steps_per_m;
 
     vchar distance = VLOAD(distances + voxel);
     const vfloat old_steps = TO_VFLOAT(distance);
     const vint known = old_steps != TSDF_CHI;
     const vint seen = (measured.depth_m > 0.0f) & (steps >= -TSDF_MAX);
-    const vint beyond = steps > TSDF_MAX + args.free_space_sigmas * steps_per_m * sigma_m;
+    const vint beyond = (steps - TSDF_MAX) * measured.accuracy > free_steps_per_m * axial_m;
     const vint hit = seen & NOT(beyond);
     const vint freed = seen & beyond & known;
     if (ANY(hit | freed)) {
       const vuchar old_byte = VLOAD(certainties + voxel);
-      const vfloat certainty = TO_VFLOAT(old_byte);
       const vuint phase = dither_phase(voxel, block, args.frame) + lane_phase;
       const vfloat random = TO_VFLOAT(AS_VINT(phase >> 8)) * (1.0f / 16777216.0f);
-      const FilterStep step = fuse_measurement(certainty, known, sigma_m * sigma_m, args);
+      const FilterStep step = fuse_measurement(TO_VINT(old_byte), known, axial_m * axial_m,
+                                               measured.accuracy * measured.accuracy, args);
       const vfloat base_steps = select(steps, old_steps, known);
       const vint rounded = max(dithered(base_steps + step.gain * (steps - base_steps), random), (vint)(-TSDF_MAX));
-      const vfloat new_certainty = select(step.certainty, doubt(certainty, args), freed);
-      const vint byte = clamp(dithered(new_certainty, 1.0f - random), select((vint)(1), (vint)(0), freed), (vint)(CERTAINTY_MAX));
-      const vint gone = (hit & (rounded > TSDF_MAX)) | (freed & (byte < args.min_certainty));
-      const vint fused = select(select(TO_VINT(distance), rounded, hit), (vint)(TSDF_CHI), gone);
-      distance = select(distance, TO_VCHAR(fused), TO_VMASK8(hit | freed));
+      const vint fused = select(rounded, (vint)(TSDF_CHI), rounded > TSDF_MAX);
+      const vint byte = clamp(dithered(step.certainty, 1.0f - random), (vint)(1), (vint)(CERTAINTY_MAX));
+      distance = select(distance, TO_VCHAR(fused), TO_VMASK8(hit));
+      vuchar new_byte = select(old_byte, TO_VUCHAR(byte), TO_VMASK8(hit));
+      if (ANY(freed)) {
+        const vint doubted = max(dithered(doubt(TO_VINT(old_byte), args), 1.0f - random), (vint)(0));
+        distance = select(distance, (vchar)(TSDF_CHI), TO_VMASK8(freed & (doubted < args.min_certainty)));
+        new_byte = select(new_byte, TO_VUCHAR(doubted), TO_VMASK8(freed));
+      }
       VSTORE(distance, distances + voxel);
-      VSTORE(select(old_byte, TO_VUCHAR(byte), TO_VMASK8(hit | freed)), certainties + voxel);
+      VSTORE(new_byte, certainties + voxel);
     }
     smallest = min(smallest, abs(distance));
   }

@@ -15,7 +15,7 @@ typedef struct {
 } Points;
 
 typedef struct {
-  vfloat along_ray_m, distance_m;
+  vfloat distance_m;
   vfloat slope;  // by which the distance grows where the depth does
 } MeasuredDistance;
 
@@ -50,7 +50,7 @@ inline MeasuredDistance measured_distance(Points p, Measurement measured, float 
                                           float depth_step_m) {
   const vfloat along_ray_m = (measured.depth_m - p.z) * ray_length;
   const vint near = fabs(along_ray_m) < MAX_REFINED_RANGE * truncation_m;
-  MeasuredDistance result = {along_ray_m, along_ray_m, 1.0f};
+  MeasuredDistance result = {along_ray_m, 1.0f};
   vfloat x = p.x, y = p.y, z = p.z;
   for (int i = 0; i < GRADIENT_STEPS; ++i) {
     TangentPlane tangent = plane_at(camera.fx * x / z + (camera.cx + 0.5f), camera.fy * y / z + (camera.cy + 0.5f),
@@ -77,7 +77,7 @@ inline MeasuredDistance measured_distance(Points p, Measurement measured, float 
   const vfloat slope = 1.0f;
 #endif
   const vfloat along_ray_m = (measured.depth_m - p.z) * ray_length;
-  const MeasuredDistance result = {along_ray_m, along_ray_m * slope, slope};
+  const MeasuredDistance result = {along_ray_m * slope, slope};
   return result;
 }
 

@@ -52,7 +52,7 @@ FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& m
   args.max_weight = parameters.max_weight;
   args.process_variance_m2 = parameters.process_sigma_m * parameters.process_sigma_m;
   args.free_space_sigmas = parameters.free_space_sigmas;
-  args.free_space_rate = parameters.free_space_rate;
+  args.free_space_kept = 1.0f - parameters.free_space_rate;
   args.min_certainty = minCertainty(parameters, map);
   args.frame = frame_number;
   return args;

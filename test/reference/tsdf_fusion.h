@@ -115,7 +115,7 @@ inline Distance distanceTo(const View& view, const cv::Vec3f& measured, const Ei
 inline Measurement measure(const View& view, const Pose& T_D_W, const MapParameters& map,
                            const FusionParameters& fusion, const BlockSparseMap::BlockIndex& block,
                            const Eigen::Vector3i& voxel) {
-  const double margin_px = 1e-3;
+  const double margin_px = 3e-3;
   const double margin_steps = 0.02;
   const double size_m = map.voxel_size_m;
   const Eigen::Vector3d middle =
@@ -136,10 +136,9 @@ inline Measurement measure(const View& view, const Pose& T_D_W, const MapParamet
   result.steps = distance.metres * steps_per_m;
   result.sigma_m = sensorSigma(pixel[0]) * distance.slope / pixel[2];
   const double free_steps = TSDF_MAX + fusion.free_space_sigmas * steps_per_m * result.sigma_m;
-  const double along_ray_steps = along_ray_m * steps_per_m;
-  result.ambiguous = result.ambiguous || std::abs(along_ray_steps + TSDF_MAX) < margin_steps ||
+  result.ambiguous = result.ambiguous || std::abs(result.steps + TSDF_MAX) < margin_steps ||
                      std::abs(result.steps - free_steps) < margin_steps;
-  if (along_ray_steps < -TSDF_MAX) return result;
+  if (result.steps < -TSDF_MAX) return result;
   result.kind = result.steps > free_steps ? Measurement::kFree : Measurement::kHit;
   return result;
 }
