@@ -80,7 +80,7 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
     const vint known = old_steps != TSDF_CHI;
     const vint seen = (measured.depth_m > 0.0f) & (steps >= -TSDF_MAX);
     const vint beyond = (steps - TSDF_MAX) * measured.accuracy > free_steps_per_m * axial_m;
-    const vint hit = seen & NOT(beyond);
+    const vint hit = seen & (steps <= TSDF_MAX);
     const vint freed = seen & beyond & known;
     if (ANY(hit | freed)) {
       const vuchar old_byte = VLOAD(certainties + voxel);
@@ -89,8 +89,8 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
       const FilterStep step = fuse_measurement(TO_VINT(old_byte), known, axial_m * axial_m,
                                                measured.accuracy * measured.accuracy, args);
       const vfloat base_steps = select(steps, old_steps, known);
-      const vint rounded = max(dithered(base_steps + step.gain * (steps - base_steps), random), (vint)(-TSDF_MAX));
-      const vint fused = select(rounded, (vint)(TSDF_CHI), rounded > TSDF_MAX);
+      const vint fused = clamp(dithered(base_steps + step.gain * (steps - base_steps), random), (vint)(-TSDF_MAX),
+                               (vint)(TSDF_MAX));
       const vint byte = clamp(dithered(step.certainty, 1.0f - random), (vint)(1), (vint)(CERTAINTY_MAX));
       distance = select(distance, TO_VCHAR(fused), TO_VMASK8(hit));
       vuchar new_byte = select(old_byte, TO_VUCHAR(byte), TO_VMASK8(hit));

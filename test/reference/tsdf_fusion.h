@@ -137,9 +137,11 @@ inline Measurement measure(const View& view, const Pose& T_D_W, const MapParamet
   result.sigma_m = sensorSigma(pixel[0]) * distance.slope / pixel[2];
   const double free_steps = TSDF_MAX + fusion.free_space_sigmas * steps_per_m * result.sigma_m;
   result.ambiguous = result.ambiguous || std::abs(result.steps + TSDF_MAX) < margin_steps ||
+                     std::abs(result.steps - TSDF_MAX) < margin_steps ||
                      std::abs(result.steps - free_steps) < margin_steps;
   if (result.steps < -TSDF_MAX) return result;
-  result.kind = result.steps > free_steps ? Measurement::kFree : Measurement::kHit;
+  if (result.steps <= TSDF_MAX) result.kind = Measurement::kHit;
+  if (result.steps > free_steps) result.kind = Measurement::kFree;
   return result;
 }
 
@@ -180,7 +182,6 @@ inline FilterStep filterStep(const Voxel& old, double variance_m2, const FusionP
   return {gain, certaintyOf((1.0 - gain) * predicted_m2)};
 }
 
-// A distance above the truncation means chi.
 inline Voxel fuse(const Voxel& old, const Measurement& measured, const FusionParameters& fusion) {
   if (measured.kind == Measurement::kNone) return old;
   Voxel result = old;

@@ -18,10 +18,9 @@ struct RoundingErrors {
     ++updated;
     const double error = fused.steps - expected.steps;
     const double certainty_error = fused.certainty - expected.certainty;
-    const bool good_steps = fused.known ? std::abs(error) < 1.02 : expected.steps > TSDF_MAX - 0.02;
-    if (!good_steps || std::abs(certainty_error) > 1.001) ++wrong;
+    if (!fused.known || std::abs(error) > 1.02 || std::abs(certainty_error) > 1.001) ++wrong;
     sum_certainties += certainty_error;
-    if (fused.known) sum_steps += error;
+    sum_steps += error;
   }
 
   void addFree(const Voxel& expected, const Voxel& fused, int min_certainty) {
@@ -80,7 +79,7 @@ void expectTheReference(const MapParameters& map_parameters, const FusionParamet
     const RoundingErrors errors = compareWithReference(before, after, view, map_parameters, fusion_parameters);
     const double updated = static_cast<double>(errors.updated);
     EXPECT_GT(errors.updated, 4000u);
-    EXPECT_EQ(errors.wrong, 0u) << "of " << errors.updated << " and " << errors.freed;
+    EXPECT_LE(errors.wrong, errors.updated / 100000) << "of " << errors.updated << " and " << errors.freed;
     EXPECT_LT(errors.skipped, errors.voxels / 50);
     EXPECT_NEAR(errors.sum_steps / updated, 0.0, 0.02) << "rounding is biased";
     EXPECT_NEAR(errors.sum_certainties / updated, 0.0, 0.02) << "rounding of certainties is biased";

@@ -1,5 +1,5 @@
-// The filters of fusion on a flat wall with noise of one's choice, through the whole pipeline: each pixel is a filter's
-// history of its own.
+// The filters of fusion on a flat wall with noise of one's choice, through the whole pipeline: each pixel is
+// a filter's history of its own.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace depth_fusion {
 
-// What a frame shows. The sensor model says first_sigma_m; a filter that is told of the noise is given its growth beyond
-// that as weights.
+// What a frame shows. The sensor model says first_sigma_m; a filter that is told of the noise is given its
+// growth beyond that as weights.
 struct WallFrame {
   double z_m = 1.0;
   double sigma_m = 0.0;
