@@ -62,7 +62,7 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
     const int3 in_block = (int3)(voxel & (BLOCK_SIZE - 1), (voxel >> BLOCK_SIZE_LOG2) & (BLOCK_SIZE - 1),
                                  voxel >> (2 * BLOCK_SIZE_LOG2));
     const float3 first = transform_point(T_D_W, convert_float3(block * BLOCK_SIZE + in_block) * size);
-    Points points = {first.x + lane_x, first.y + lane_y, first.z + lane_z, 0};
+    Points points = {first.x + lane_x, first.y + lane_y, first.z + lane_z};
     const vfloat per_z = 1.0f / points.z;
     const vfloat u = camera.fx * points.x * per_z + (camera.cx + 0.5f);
     const vfloat v = camera.fy * points.y * per_z + (camera.cy + 0.5f);

@@ -6,12 +6,11 @@
 #define FUSION_DISTANCE DISTANCE_PLANE
 #endif
 #define GRADIENT_STEPS 2
-#define MAX_REFINED_RANGE 2.0f
+#define MAX_REFINED_RANGE 2.0f  // truncations along the ray; farther points stay projective
 
-// Points in frame D, one a lane, with the pixels that they fall on.
+// Points in frame D, one a lane.
 typedef struct {
   vfloat x, y, z;
-  vint pixel;
 } Points;
 
 typedef struct {

@@ -10,10 +10,11 @@ namespace {
 
 constexpr double kGain = 0.05;
 
-// From a Kinect's noise at 1 m to that at 2 m.
+// From a Kinect's noise at 0.4 m to that at 2 m.
 WallExperiment growingNoise() {
   WallExperiment experiment;
-  experiment.frame_at = [](int frame) { return WallFrame{1.0, 0.0019 + 0.0042 * frame / 200.0}; };
+  experiment.first_sigma_m = 0.0012;
+  experiment.frame_at = [](int frame) { return WallFrame{1.0, 0.0012 + 0.0049 * frame / 200.0}; };
   return experiment;
 }
 

@@ -1,4 +1,5 @@
-// Voxels of bytes against voxels of floats: long runs at small gains, where rounding to the nearest byte would stall.
+// Voxels of bytes against voxels of floats: long runs at small gains, where rounding to the nearest byte
+// would stall.
 #include <gtest/gtest.h>
 
 #include "support/fusion_views.h"
@@ -89,8 +90,8 @@ Bias runOf(const FusionParameters& fusion_parameters) {
 
 void expectNoStall(const FusionParameters& parameters) {
   const Bias bias = runOf(parameters);
-  std::printf("bytes against floats: bias %.4f, spread %.3f; to the nearest: bias %.3f voxels\n", bias.bytes_vox,
-              bias.spread_vox, bias.nearest_vox);
+  std::printf("bytes against floats: bias %.4f, spread %.3f; to the nearest: bias %.3f voxels\n",
+              bias.bytes_vox, bias.spread_vox, bias.nearest_vox);
   ASSERT_GT(bias.voxels, 200u);
   EXPECT_NEAR(bias.bytes_vox, 0.0, kMaxBias_vox);
   EXPECT_GT(std::abs(bias.nearest_vox), kMaxBias_vox) << "the control: rounding to the nearest fails";

@@ -41,8 +41,8 @@ RoundingErrors compareWithReference(const MapContent& before, const MapContent& 
     const auto old = before.find(key);
     for (size_t i = 0; i < content.distances.size(); ++i) {
       const BlockIndex block = indexOf(key);
-      const Measurement measured = measure(view, T_D_W, map, fusion, block,
-                                           voxelOf(block, static_cast<int>(i), map.block_size));
+      const Measurement measured =
+          measure(view, T_D_W, map, fusion, block, voxelOf(block, static_cast<int>(i), map.block_size));
       const Voxel old_voxel = old == before.end() ? Voxel() : voxelOf(old->second, i);
       const Voxel fused = voxelOf(content, i);
       ++errors.voxels;
@@ -76,7 +76,8 @@ void expectTheReference(const MapParameters& map_parameters, const FusionParamet
     const View view = viewOf(bumpyDepth(1.1 + 0.08 * frame), somePose(1.0 - 0.1 * frame));
     integrate(fusion, view);
     const MapContent after = readMap(map);
-    const RoundingErrors errors = compareWithReference(before, after, view, map_parameters, fusion_parameters);
+    const RoundingErrors errors =
+        compareWithReference(before, after, view, map_parameters, fusion_parameters);
     const double updated = static_cast<double>(errors.updated);
     EXPECT_GT(errors.updated, 4000u);
     EXPECT_LE(errors.wrong, errors.updated / 100000) << "of " << errors.updated << " and " << errors.freed;

@@ -14,8 +14,9 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kSigma_m = 0.0019;      // of a Kinect at 1 m
-constexpr double kLastSigma_m = 0.0061;  // at 2 m
+constexpr double kFirstSigma_m = 0.0012;  // of a Kinect at 0.4 m
+constexpr double kSigma_m = 0.0019;       // at 1 m
+constexpr double kLastSigma_m = 0.0061;   // at 2 m
 constexpr int kFrames = 200;
 constexpr int kTail = 50;
 const std::vector<std::string> kRules = {"average", "weighted", "kalman"};
@@ -47,26 +48,26 @@ PlotLine lineOf(const std::string& name, const std::vector<WallError>& errors) {
   return line;
 }
 
-// Filters of the same gain while the noise grows as if the sensor went from 1 m to 2 m. The Kalman filter is
+// Filters of the same gain while the noise grows as if the sensor went from 0.4 m to 2 m. The Kalman filter is
 // told.
 void growingNoise(ComputeContext& compute, const std::string& folder) {
   WallExperiment experiment;
   experiment.frames = kFrames;
-  experiment.first_sigma_m = kSigma_m;
+  experiment.first_sigma_m = kFirstSigma_m;
   experiment.frame_at = [](int frame) {
-    return WallFrame{1.0, kSigma_m + (kLastSigma_m - kSigma_m) * frame / kFrames};
+    return WallFrame{1.0, kFirstSigma_m + (kLastSigma_m - kFirstSigma_m) * frame / kFrames};
   };
   LinePlot plot{
-      "noise grows from 1.9 to 6.1 mm; all filters begin with a gain of 0.05", "frame", "RMS error [mm]", {}};
+      "noise grows from 1.2 to 6.1 mm; all filters begin with a gain of 0.05", "frame", "RMS error [mm]", {}};
   for (const std::string& rule : kRules) {
     experiment.told_of_noise = rule == "kalman";
-    const auto errors = runWallExperiment(compute, experiment, filterOfGain(rule, 0.05, kSigma_m));
+    const auto errors = runWallExperiment(compute, experiment, filterOfGain(rule, 0.05, kFirstSigma_m));
     std::printf("growing noise, %-8s last 10 frames %.3f mm\n", rule.c_str(),
                 1000.0 * rootMeanSquare(errors, errors.size() - 10));
     plot.lines.push_back(lineOf(rule, errors));
   }
   experiment.told_of_noise = true;
-  const auto errors = runWallExperiment(compute, experiment, filterOfGain("weighted", 0.05, kSigma_m));
+  const auto errors = runWallExperiment(compute, experiment, filterOfGain("weighted", 0.05, kFirstSigma_m));
   std::printf("growing noise, weighted, told of the noise: last 10 frames %.3f mm\n",
               1000.0 * rootMeanSquare(errors, errors.size() - 10));
   plot.lines.push_back(lineOf("weighted, told", errors));
