@@ -12,7 +12,7 @@
 __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate_system(
     __global const float *source_depth, __global const float *source_normals, __global const float *model_depth,
     __global const float *model_normals, __global float *partial_sums, CameraArgs source, CameraArgs model,
-    TransformArgs T_M_D, MatchingArgs args) {
+    TransformArgs T_M_D, SensorArgs sensor, MatchingArgs args) {
   const int row = get_group_id(0);
   const int item = get_local_id(0);
   vfloat sums[ICP_SUMS];
@@ -54,10 +54,10 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
     if (!ANY(inlier)) continue;
 
     const vfloat residual = nx * dx + ny * dy + nz * dz;
-    const vfloat sigma_m = sensor_sigma_m(depth);
+    const vfloat sigma_m = AXIAL_SIGMA_M(sensor, depth);
     const vfloat huber = min(args.huber_sigmas * sigma_m / max(fabs(residual), (vfloat)(1e-6f)), (vfloat)(1.0f));
     const vfloat weight =
-        select((vfloat)(0.0f), huber * (SENSOR_SIGMA_A * SENSOR_SIGMA_A) / (sigma_m * sigma_m), inlier);
+        select((vfloat)(0.0f), huber * (ICP_UNIT_SIGMA_M * ICP_UNIT_SIGMA_M) / (sigma_m * sigma_m), inlier);
     const vfloat jacobian[6] = {py * nz - pz * ny, pz * nx - px * nz, px * ny - py * nx, nx, ny, nz};
     int k = 0;
     for (int i = 0; i < 6; ++i) {

@@ -22,7 +22,7 @@ __kernel void clear_blocks(__global char *voxels, __global const int *slots, int
   const int part = get_global_id(0) % items_per_block;
   if (i >= count) return;
   vstore16((char16)(TSDF_CHI), part, voxels + block_distances(slots[i]));
-  vstore16((char16)(0), part, voxels + block_weights(slots[i]));
+  vstore16((char16)(0), part, voxels + block_certainties(slots[i]));
 }
 
 __kernel void clear_colors(__global uint *colors, __global const int *slots, int count) {

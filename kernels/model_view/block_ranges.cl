@@ -3,7 +3,6 @@
 //   nearest, farthest  depth in metres a tile; float bits as ints, whose order is the same for positive floats
 #include "shared/block_map.h"
 #include "shared/image.h"
-#define RANGE_TILE 8
 
 __kernel void splat_block_ranges(__global const int4 *block_indices, __global const int *block_states, int slots,
                                  __global int *nearest, __global int *farthest, CameraArgs camera,

@@ -5,7 +5,6 @@
 // a row.
 #include "shared/block_map.h"
 #include "shared/image.h"
-#define RANGE_TILE 8
 #define MAX_STEPS 512
 
 typedef struct {

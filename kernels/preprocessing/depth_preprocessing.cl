@@ -1,7 +1,6 @@
 // Depth images to clean depth in metres, pyramid and normals. Depth 0 = none. A work-item takes SIMD_WIDTH pixels of a
 // row (depth_to_metres_*, filter_bilateral, compute_normals), one pixel (halve_depth) or one tile (max_tiles).
 #include "shared/image.h"
-#define TILE 16
 
 inline vfloat within_range(vfloat depth_m, vint x, const CameraArgs camera, const RangeArgs range) {
   const vint good = (depth_m >= range.min_range_m) & (depth_m <= range.max_range_m) & (x < camera.width);
@@ -29,12 +28,12 @@ __kernel void depth_to_metres_f32(__global const float *input, __global float *d
 
 // Averages neighbours in a 5x5 window, weighted by distance in the image and, with Tukey's biweight, in depth.
 __kernel void filter_bilateral(__global const float *depth, __global float *filtered, CameraArgs camera,
-                               BilateralArgs args) {
+                               SensorArgs sensor, BilateralArgs args) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
   if (x >= camera.width) return;
   const vfloat centre = VLOAD(depth + pixel_index(x, y, camera));
-  const vfloat cutoff_m = args.cutoff_sigmas * sensor_sigma_m(centre);
+  const vfloat cutoff_m = args.cutoff_sigmas * AXIAL_SIGMA_M(sensor, centre);
   const vfloat scale = 1.0f / (cutoff_m * cutoff_m);
   vfloat sum = 0.0f;
   vfloat weights = 0.0f;
@@ -54,7 +53,7 @@ __kernel void filter_bilateral(__global const float *depth, __global float *filt
 
 // A pixel of the half size image: the mean of those of its 2x2 pixels that lie near the closest one.
 __kernel void halve_depth(__global const float *depth, __global float *half_depth, CameraArgs camera,
-                          CameraArgs half_camera, float cutoff_sigmas) {
+                          CameraArgs half_camera, SensorArgs sensor, float cutoff_sigmas) {
   const int x = get_global_id(0);
   const int y = get_global_id(1);
   if (x >= half_camera.width) return;
@@ -63,8 +62,7 @@ __kernel void halve_depth(__global const float *depth, __global float *half_dept
     const float d = depth[pixel_index(2 * x + (i & 1), 2 * y + (i >> 1), camera)];
     if (d > 0.0f) closest = min(closest, d);
   }
-  const float beyond = closest - SENSOR_SIGMA_C;
-  const float limit = closest + cutoff_sigmas * (SENSOR_SIGMA_A + SENSOR_SIGMA_B * beyond * beyond);
+  const float limit = closest + cutoff_sigmas * AXIAL_SIGMA_M(sensor, closest);
   float sum = 0.0f;
   int count = 0;
   for (int i = 0; i < 4; ++i) {
@@ -123,10 +121,10 @@ __kernel void max_tiles(__global const float *depth, __global float *tiles, Came
                         int tile_count) {
   const int tile = get_global_id(0);
   if (tile >= tile_count) return;
-  const int x = (tile % tile_columns) * TILE;
-  const int y = (tile / tile_columns) * TILE;
+  const int x = (tile % tile_columns) * DEPTH_TILE;
+  const int y = (tile / tile_columns) * DEPTH_TILE;
   float16 largest = 0.0f;
-  for (int row = y; row < min(y + TILE, camera.height); ++row) {
+  for (int row = y; row < min(y + DEPTH_TILE, camera.height); ++row) {
     largest = fmax(largest, vload16(0, depth + pixel_index(x, row, camera)));
   }
   const float8 a = fmax(largest.lo, largest.hi);

@@ -25,6 +25,6 @@ inline int voxel_number(int3 in_block) {
 // Number of a block's first colour in the colour pool.
 inline size_t block_colors(int slot) { return (size_t)slot * BLOCK_VOXELS; }
 
-// Byte offsets of a block's distances and weights in the voxel pool.
+// Byte offsets of a block's distances and certainties in the voxel pool.
 inline size_t block_distances(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS); }
-inline size_t block_weights(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS) + BLOCK_VOXELS; }
+inline size_t block_certainties(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS) + BLOCK_VOXELS; }

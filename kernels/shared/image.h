@@ -19,9 +19,3 @@ inline float3 transform_point(const TransformArgs T, float3 p) {
 inline vfloat rotated(const TransformArgs T, int row, vfloat x, vfloat y, vfloat z) {
   return T.rotation[3 * row] * x + T.rotation[3 * row + 1] * y + T.rotation[3 * row + 2] * z;
 }
-
-// Standard deviation of the sensor's depth, metres.
-inline vfloat sensor_sigma_m(vfloat depth_m) {
-  const vfloat beyond = depth_m - SENSOR_SIGMA_C;
-  return SENSOR_SIGMA_A + SENSOR_SIGMA_B * beyond * beyond;
-}

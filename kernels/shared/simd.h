@@ -21,6 +21,7 @@ typedef uchar vuchar;
 #define TO_VUCHAR(x) convert_uchar(x)
 #define AS_VINT(x) as_int(x)
 #define AS_VUINT(x) as_uint(x)
+#define AS_VFLOAT(x) as_float(x)
 #define TO_VMASK8(mask) convert_char(mask)
 #define ANY(mask) ((mask) != 0)
 #define NOT(mask) (!(mask))
@@ -41,14 +42,16 @@ typedef SIMD_JOIN(uchar, SIMD_WIDTH) vuchar;
 #define TO_VUCHAR(x) SIMD_JOIN(convert_uchar, SIMD_WIDTH)(x)
 #define AS_VINT(x) SIMD_JOIN(as_int, SIMD_WIDTH)(x)
 #define AS_VUINT(x) SIMD_JOIN(as_uint, SIMD_WIDTH)(x)
+#define AS_VFLOAT(x) SIMD_JOIN(as_float, SIMD_WIDTH)(x)
 #define TO_VMASK8(mask) SIMD_JOIN(convert_char, SIMD_WIDTH)(mask)
-#define ANY(mask) any(mask)
+#define ANY(mask) any_lane(mask)
 #define NOT(mask) (~(mask))
 #if SIMD_WIDTH == 8
 #define LANE_INDICES ((vint)(0, 1, 2, 3, 4, 5, 6, 7))
 #define GATHER(type, p, i)                                                                           \
   ((type)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], \
           (p)[(i).s7]))
+inline bool any_lane(int8 mask) { return as_long(convert_char8(mask)) != 0; }
 inline float sum_lanes(float8 v) {
   const float4 a = v.lo + v.hi;
   const float2 b = a.lo + a.hi;
@@ -60,6 +63,10 @@ inline float sum_lanes(float8 v) {
   ((type)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6],     \
           (p)[(i).s7], (p)[(i).s8], (p)[(i).s9], (p)[(i).sa], (p)[(i).sb], (p)[(i).sc], (p)[(i).sd],     \
           (p)[(i).se], (p)[(i).sf]))
+inline bool any_lane(int16 mask) {
+  const long2 lanes = as_long2(convert_char16(mask));
+  return (lanes.x | lanes.y) != 0;
+}
 inline float sum_lanes(float16 v) {
   const float8 a = v.lo + v.hi;
   const float4 b = a.lo + a.hi;

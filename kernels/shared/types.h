@@ -13,6 +13,27 @@
 #define BLOCK_HAS_DATA 1       // some voxel is not chi
 #define BLOCK_NEAR_SURFACE 2   // some voxel lies within a voxel's diagonal of the surface
 
+// A voxel's second byte says how sure its distance is, 1 to 255: the number of measurements, their weight, or by the
+// Kalman filter a code of the variance. The code's scale is that of a float's bits, logarithmic but for straight lines
+// between the powers of two: 1 stands for a standard deviation of 50 mm, 255 for 0.05 mm.
+#define CERTAINTY_MAX 255
+#define VARIANCE_BITS_MAX 0x3b23d70a  // bits of the largest, 2.5e-3 m^2
+#define VARIANCE_BITS_STEP 658467     // bits a step of the code
+
+// The rule by which a measurement changes a voxel (Algorithms 1, 2 and 3 of the paper), and how far the surface is
+// taken to be from it: along the ray, from the plane through the ray's pixel, or from the plane through the pixel that
+// is nearest, found by gradient steps in the depth image.
+#define FUSION_AVERAGE 0
+#define FUSION_WEIGHTED 1
+#define FUSION_KALMAN 2
+#define DISTANCE_PROJECTIVE 0
+#define DISTANCE_PLANE 1
+#define DISTANCE_REFINED 2
+
+// Pixels per axis of the tiles with the largest depth, and with the range of the rays.
+#define DEPTH_TILE 16
+#define RANGE_TILE 8
+
 // Images are planar, IMAGE_GUARD elements, then rows of `pitch` elements, then IMAGE_GUARD elements. Guards and the
 // columns from width on, 16 at least, hold zeros: vectors may be loaded up to 16 elements beside the image.
 #define IMAGE_GUARD 16
@@ -67,12 +88,36 @@ typedef struct {
   int capacity;      // of the list of requests
 } SelectionArgs;
 
-// Weighted fusion (Algorithm 2 of the paper).
+// The depth sensor's noise. Axial: sigma = base + growth (z - from)^2. Lateral: how far from a pixel's ray it measures.
 typedef struct {
-  float weight_at_1m;  // of a measurement at 1 m; falls with the square of the depth
-  float min_weight, max_measurement_weight;
-  float max_weight;    // W_max
-  int frame;           // number of the frame, for the rounding's dither
+  float sigma_base_m, sigma_growth_per_m, sigma_from_m;
+  float lateral_sigma_px;
+  float edge_sigmas;  // beside a depth edge, times the axial sigma
+} SensorArgs;
+
+// The one formula of the axial sigma, for numbers and vectors, on host and device.
+#define AXIAL_SIGMA_M(sensor, z) \
+  ((sensor).sigma_base_m + (sensor).sigma_growth_per_m * ((z) - (sensor).sigma_from_m) * ((z) - (sensor).sigma_from_m))
+
+// What fusion needs to know of a pixel is packed in a word: 18 bits of depth in steps, 7 bits of the cosine of the angle
+// between ray and surface normal, 7 bits of the accuracy, the axial sigma over the sigma; 0 = no measurement.
+#define MEASUREMENT_BITS 7
+#define MEASUREMENT_MAX 127
+#define MEASUREMENT_DEPTH_MAX 262143
+#define MIN_COSINE 0.5f  // flatter rays count as this flat
+
+// Fusion by any of the rules.
+typedef struct {
+  float depth_step_m;       // of the measurements
+  float variance_at_1m_m2;  // for which gain and weight are given
+  float gain_at_1m;         // running average: w_k
+  float weight_at_1m;       // weighted: w_k
+  float max_weight;         // weighted: W_max
+  float process_variance_m2;  // Kalman: Q
+  float free_space_sigmas;  // how far, beyond the truncation, the surface must be behind a voxel that is free
+  float free_space_kept;    // the part of its certainty that a free voxel keeps
+  int min_certainty;        // below, a free voxel becomes chi
+  int frame;                // number of the frame, for the rounding's dither
 } FusionArgs;
 
 // Fusion of colour.
@@ -104,10 +149,6 @@ typedef struct {
 // Sums of the ICP system: the upper triangle of J^T w J row by row, J^T w r, w r^2, the number of inliers, and the
 // number of source points.
 #define ICP_SUMS 30
-
-// The sensor's axial noise, one standard deviation in metres (Nguyen et al. 2012): a + b (z - c)^2.
-#define SENSOR_SIGMA_A 0.0012f
-#define SENSOR_SIGMA_B 0.0019f
-#define SENSOR_SIGMA_C 0.4f
+#define ICP_UNIT_SIGMA_M 0.0012f  // of the sensor's sigma, where a match's weight is 1
 
 #endif

@@ -36,11 +36,22 @@
   MEMBER(SelectionArgs, stride_px)           \
   MEMBER(SelectionArgs, band_samples)        \
   MEMBER(SelectionArgs, capacity)            \
+  STRUCT(SensorArgs)                         \
+  MEMBER(SensorArgs, sigma_base_m)           \
+  MEMBER(SensorArgs, sigma_growth_per_m)     \
+  MEMBER(SensorArgs, sigma_from_m)           \
+  MEMBER(SensorArgs, lateral_sigma_px)       \
+  MEMBER(SensorArgs, edge_sigmas)            \
   STRUCT(FusionArgs)                         \
+  MEMBER(FusionArgs, depth_step_m)           \
+  MEMBER(FusionArgs, variance_at_1m_m2)      \
+  MEMBER(FusionArgs, gain_at_1m)             \
   MEMBER(FusionArgs, weight_at_1m)           \
-  MEMBER(FusionArgs, min_weight)             \
-  MEMBER(FusionArgs, max_measurement_weight) \
   MEMBER(FusionArgs, max_weight)             \
+  MEMBER(FusionArgs, process_variance_m2)    \
+  MEMBER(FusionArgs, free_space_sigmas)      \
+  MEMBER(FusionArgs, free_space_kept)        \
+  MEMBER(FusionArgs, min_certainty)          \
   MEMBER(FusionArgs, frame)                  \
   STRUCT(ColorFusionArgs)                    \
   MEMBER(ColorFusionArgs, exposure_gain)     \

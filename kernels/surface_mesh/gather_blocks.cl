@@ -2,7 +2,7 @@
 // layer, of equal z, of one volume.
 //   voxels, offsets  the map
 //   blocks           count blocks
-//   volume, row_masks  see batch.h; chi where there is no block or the weight is below min_weight
+//   volume, row_masks  see batch.h; chi where there is no block or the certainty is below min_certainty
 #include "surface_mesh/batch.h"
 
 #if BLOCK_SIZE == 4
@@ -28,10 +28,10 @@ inline ulong high_bits(ulong bytes) {
   return ((bytes >> 7 & 0x0101010101010101UL) * 0x0102040810204080UL) >> 56;
 }
 
-inline char known_distance(__global const char *voxels, int slot, int voxel, int min_weight) {
+inline char known_distance(__global const char *voxels, int slot, int voxel, int min_certainty) {
   if (slot < 0) return TSDF_CHI;
-  const uchar weight = as_uchar(voxels[block_weights(slot) + voxel]);
-  return weight < min_weight ? TSDF_CHI : voxels[block_distances(slot) + voxel];
+  const uchar certainty = as_uchar(voxels[block_certainties(slot) + voxel]);
+  return certainty < min_certainty ? TSDF_CHI : voxels[block_distances(slot) + voxel];
 }
 
 inline ulong2 mask_of_voxel(char distance, int bit) {
@@ -39,13 +39,13 @@ inline ulong2 mask_of_voxel(char distance, int bit) {
 }
 
 // Copies the block's own BLOCK_SIZE voxels; the masks' bit 0 is the first of them.
-inline ulong2 gather_row(__global char *out, __global const char *voxels, int slot, int row, int min_weight) {
+inline ulong2 gather_row(__global char *out, __global const char *voxels, int slot, int row, int min_certainty) {
   ulong2 masks = 0;
   for (int x = 0; x < BLOCK_SIZE; x += PIECE) {
-    const PieceUchars weights =
-        AS_UCHARS(LOAD_PIECE(0, voxels + block_weights(slot) + row + x));
+    const PieceUchars certainties =
+        AS_UCHARS(LOAD_PIECE(0, voxels + block_certainties(slot) + row + x));
     PieceChars distances = LOAD_PIECE(0, voxels + block_distances(slot) + row + x);
-    distances = select(distances, (PieceChars)(TSDF_CHI), weights < (PieceUchars)(min_weight));
+    distances = select(distances, (PieceChars)(TSDF_CHI), certainties < (PieceUchars)(min_certainty));
     STORE_PIECE(distances, 0, out + x);
     const PieceChars known = distances != (PieceChars)(TSDF_CHI);
     masks |= (ulong2)(high_bits(PIECE_BITS(known)), high_bits(PIECE_BITS(distances))) << (ulong)x;
@@ -64,18 +64,18 @@ inline int slot_of(__global const int *offsets, int3 block, GridArgs grid) {
 }
 
 // A row of the volume, out of the blocks before, in and after it. `row` is its first voxel's number in the block.
-inline ulong2 gather_padded_row(__global char *out, __global const char *voxels, int3 slots, int row, int min_weight) {
-  const ulong2 own = slots.y < 0 ? fill_row(out + 1) : gather_row(out + 1, voxels, slots.y, row, min_weight);
-  out[0] = known_distance(voxels, slots.x, row + BLOCK_SIZE - 1, min_weight);
-  out[BLOCK_SIZE + 1] = known_distance(voxels, slots.z, row, min_weight);
-  out[BLOCK_SIZE + 2] = known_distance(voxels, slots.z, row + 1, min_weight);
+inline ulong2 gather_padded_row(__global char *out, __global const char *voxels, int3 slots, int row, int min_certainty) {
+  const ulong2 own = slots.y < 0 ? fill_row(out + 1) : gather_row(out + 1, voxels, slots.y, row, min_certainty);
+  out[0] = known_distance(voxels, slots.x, row + BLOCK_SIZE - 1, min_certainty);
+  out[BLOCK_SIZE + 1] = known_distance(voxels, slots.z, row, min_certainty);
+  out[BLOCK_SIZE + 2] = known_distance(voxels, slots.z, row + 1, min_certainty);
   return own << (ulong)1 | mask_of_voxel(out[0], 0) | mask_of_voxel(out[BLOCK_SIZE + 1], BLOCK_SIZE + 1) |
          mask_of_voxel(out[BLOCK_SIZE + 2], BLOCK_SIZE + 2);
 }
 
 __kernel void gather_blocks(__global char *volume, __global ulong2 *row_masks, __global const char *voxels,
                             __global const int *offsets, __global const MeshBlockArgs *blocks, int count,
-                            int min_weight, GridArgs grid) {
+                            int min_certainty, GridArgs grid) {
   const int i = get_global_id(0);
   if (i >= count * PADDED_SIZE) return;
   const int z = i % PADDED_SIZE - 1;
@@ -90,7 +90,7 @@ __kernel void gather_blocks(__global char *volume, __global ulong2 *row_masks, _
     const int last_y = dy > 0 ? 1 : BLOCK_SIZE - 1;
     for (int y = first_y; y <= last_y; ++y, ++padded_row) {
       row_masks[padded_row] = gather_padded_row(volume + padded_row * PADDED_SIZE, voxels, slots,
-                                                layer + y * BLOCK_SIZE, min_weight);
+                                                layer + y * BLOCK_SIZE, min_certainty);
     }
   }
 }

@@ -1,16 +1,16 @@
 // Block selection: which blocks does the measured surface meet, and which allocated blocks does the camera see.
 //   requests  indices of the blocks claimed, in any order
+//   points_outside  counts the samples of the surface that lie outside of the window
 //   visible   slots of the blocks to update, in any order
 //   count     entries of the list, 0 before; may end above the list's capacity
 #include "shared/block_map.h"
 #include "shared/image.h"
-#define TILE 16
 
 // A work-item samples one pixel, walks the truncation band along its ray, and claims the empty blocks it meets, each
 // with one atomic, so that a block is asked for once. A claim that finds the list full is withdrawn.
 __kernel void request_blocks(__global const float *depth, __global int *offsets, __global int4 *requests,
-                             __global int *count, CameraArgs camera, TransformArgs T_W_D, GridArgs grid,
-                             SelectionArgs args) {
+                             __global int *count, __global int *points_outside, CameraArgs camera,
+                             TransformArgs T_W_D, GridArgs grid, SelectionArgs args) {
   const int x = get_global_id(0) * args.stride_px + args.stride_px / 2;
   const int y = get_global_id(1) * args.stride_px + args.stride_px / 2;
   if (x >= camera.width || y >= camera.height) return;
@@ -21,6 +21,7 @@ __kernel void request_blocks(__global const float *depth, __global int *offsets,
   const float3 origin_W = (float3)(T_W_D.translation[0], T_W_D.translation[1], T_W_D.translation[2]);
   const float half_band = grid.truncation_m / length(ray_D);
   const float per_block = 1.0f / (grid.voxel_size_m * BLOCK_SIZE);
+  if (block_address(convert_int3(floor((origin_W + z * ray_W) * per_block)), grid) < 0) atomic_inc(points_outside);
   for (int i = 0; i < args.band_samples; ++i) {
     const float t = z - half_band + 2.0f * half_band * i / (args.band_samples - 1);
     const int3 block = convert_int3(floor((origin_W + t * ray_W) * per_block));
@@ -63,12 +64,12 @@ __kernel void list_visible_blocks(__global const int4 *block_indices, __global i
     x1 = min(x1, (int)(u + extent_u));
     y1 = min(y1, (int)(v + extent_v));
   }
-  const int tile_columns = (camera.width + TILE - 1) / TILE;
+  const int tile_columns = (camera.width + DEPTH_TILE - 1) / DEPTH_TILE;
   float farthest = 0.0f;
-  for (int y = y0 / TILE; y <= y1 / TILE; ++y) {
-    for (int x = x0 / TILE; x <= x1 / TILE; ++x) farthest = fmax(farthest, max_tiles[y * tile_columns + x]);
+  for (int y = y0 / DEPTH_TILE; y <= y1 / DEPTH_TILE; ++y) {
+    for (int x = x0 / DEPTH_TILE; x <= x1 / DEPTH_TILE; ++x) farthest = fmax(farthest, max_tiles[y * tile_columns + x]);
   }
-  if (farthest <= 0.0f || nearest > farthest + grid.truncation_m) return;
+  if (farthest <= 0.0f || nearest > farthest + grid.truncation_m / MIN_COSINE) return;
   block_states[slot] = 0;
   visible[atomic_inc(count)] = slot;
 }

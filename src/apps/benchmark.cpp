@@ -1,29 +1,23 @@
-// benchmark: the experiments behind docs/, one subcommand each.
+// benchmark: the experiments behind docs/, a subcommand each, in benchmark/.
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "apps/benchmark/filters.h"
 #include "apps/benchmark/tracking.h"
 
-namespace depth_fusion {
-namespace {
-
-int run(int argc, char** argv) {
+int main(int argc, char** argv) {
   CLI::App app("Runs an experiment and writes its tables and pictures.");
   app.require_subcommand(1);
-  TrackingBenchmark tracking;
-  addTrackingBenchmark(app, tracking);
-  CLI11_PARSE(app, argc, argv);
-  return 0;
-}
-
-}  // namespace
-}  // namespace depth_fusion
-
-int main(int argc, char** argv) {
+  depth_fusion::addFiltersBenchmark(app);
+  depth_fusion::TrackingBenchmark tracking;
+  depth_fusion::addTrackingBenchmark(app, tracking);
   try {
-    return depth_fusion::run(argc, argv);
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
   } catch (const std::exception& error) {
     std::cerr << "benchmark: " << error.what() << std::endl;
     return 1;
   }
+  return 0;
 }

@@ -66,8 +66,8 @@ void addOptions(CLI::App& app, RunOptions& options, std::vector<double>& intrins
 
 void printParameters(PipelineParameters& parameters) {
   for (const Parameter& parameter : parameters.table()) {
-    std::cout << parameter.name << ": " << valueText(parameter) << "   # [" << parameter.minimum << ", "
-              << parameter.maximum << "] " << parameter.help << "\n";
+    std::cout << parameter.name << ": " << valueText(parameter) << "   # " << rangeText(parameter) << " "
+              << parameter.help << "\n";
   }
 }
 

@@ -48,12 +48,26 @@ Number parseNumber(const std::string& name, const std::string& text) {
   return number;
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+void checkChoice(const Parameter& parameter, const std::string& value) {
+  const auto& choices = parameter.choices;
+  check(std::find(choices.begin(), choices.end(), value) != choices.end(),
+        "parameter '" + parameter.name + "' is '" + value + "'; it must be one of " + joined(choices));
+}
+
 void checkRange(const Parameter& parameter) {
   double number = 0.0;
   if (const auto* value = std::get_if<int*>(&parameter.value)) {
     number = **value;
   } else if (const auto* real = std::get_if<float*>(&parameter.value)) {
     number = **real;
+  } else if (const auto* word = std::get_if<std::string*>(&parameter.value)) {
+    return checkChoice(parameter, **word);
   } else {
     return;
   }
@@ -95,8 +109,10 @@ void setParameter(const ParameterTable& table, const std::string& name, const st
     **flag = text == "true";
   } else if (const auto* integer = std::get_if<int*>(&row->value)) {
     **integer = parseNumber<int>(name, text);
+  } else if (const auto* real = std::get_if<float*>(&row->value)) {
+    **real = parseNumber<float>(name, text);
   } else {
-    *std::get<float*>(row->value) = parseNumber<float>(name, text);
+    *std::get<std::string*>(row->value) = text;
   }
   checkRange(*row);
 }
@@ -117,6 +133,14 @@ std::string valueText(const Parameter& parameter) {
   std::ostringstream text;
   text << std::boolalpha;
   std::visit([&](const auto* value) { text << *value; }, parameter.value);
+  return text.str();
+}
+
+std::string rangeText(const Parameter& parameter) {
+  if (std::holds_alternative<bool*>(parameter.value)) return "true, false";
+  if (std::holds_alternative<std::string*>(parameter.value)) return joined(parameter.choices);
+  std::ostringstream text;
+  text << "[" << parameter.minimum << ", " << parameter.maximum << "]";
   return text.str();
 }
 

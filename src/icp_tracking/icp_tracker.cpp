@@ -69,9 +69,8 @@ Eigen::AlignedBox3d spreadBox(const DepthLevel& coarsest, const Pose& T_M_D) {
       const double z = depth.at<float>(v, u);
       if (z <= 0.0) continue;
       const Eigen::Vector3d p = T_M_D * (z * Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0));
-      const double beyond = z - SENSOR_SIGMA_C;
-      const double sigma = SENSOR_SIGMA_A + SENSOR_SIGMA_B * beyond * beyond;
-      const double weight = 1.0 / (sigma * sigma);
+      const double sigma_m = AXIAL_SIGMA_M(coarsest.sensor, z);
+      const double weight = 1.0 / (sigma_m * sigma_m);
       weights += weight;
       sum += weight * p;
       squares += weight * p.cwiseAbs2();
@@ -99,7 +98,7 @@ struct Solution {
 
 // The information that the matches hold. Neighbouring ones share their errors, so that `correlated` count as one.
 IcpSystem weighed(const IcpSystem& system, double correlated) {
-  const double scale = 1.0 / (static_cast<double>(SENSOR_SIGMA_A) * SENSOR_SIGMA_A * correlated);
+  const double scale = 1.0 / (static_cast<double>(ICP_UNIT_SIGMA_M) * ICP_UNIT_SIGMA_M * correlated);
   IcpSystem result = system;
   result.hessian *= scale;
   result.gradient *= scale;

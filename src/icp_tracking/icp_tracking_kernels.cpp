@@ -1,6 +1,7 @@
 #include "icp_tracking/icp_tracking_kernels.h"
 
 #include "geometry/kernel_args.h"
+#include "preprocessing/sensor_args.h"
 
 namespace depth_fusion {
 
@@ -17,7 +18,7 @@ IcpSystem IcpTracker::Kernels::accumulateSystem(const DepthLevel& level, const M
                           static_cast<int>(planeElements(view.camera))};
   const size_t rows = level.camera.height;
   accumulate_.runGroups(rows, group_size_, level.depth, level.normals, view.depth, view.normals, partial_sums,
-                        toArgs(level.camera), toArgs(view.camera), toArgs(T_M_D), args);
+                        toArgs(level.camera), toArgs(view.camera), toArgs(T_M_D), toArgs(level.sensor), args);
   return sumRows(partial_sums.read<float>(rows * ICP_SUMS));
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 #include "compute/kernel.h"
 #include "depth_fusion/common/error.h"
@@ -18,10 +17,6 @@ constexpr size_t kTransferBlocks = 16384;  // blocks that one upload of requests
 size_t cube(int n) { return static_cast<size_t>(n) * static_cast<size_t>(n) * static_cast<size_t>(n); }
 
 int floorModulo(int a, int n) { return (a % n + n) % n; }
-
-struct Request {
-  int x, y, z, unused;
-};
 
 }  // namespace
 
@@ -82,9 +77,9 @@ BlockSparseMap::BlockSparseMap(ComputeContext& compute, const MapParameters& par
   offsets_ = DeviceBuffer(compute, 4 * cube(parameters_.blocks_per_axis), "the offsets of map/blocks_per_axis");
   voxels_ = DeviceBuffer(compute, capacity_ * block_bytes, "the voxels of map/pool_mib");
   if (parameters_.color) colors_ = DeviceBuffer(compute, color_bytes, "the colours of map/color");
-  block_indices_ = DeviceBuffer(compute, capacity_ * sizeof(Request), "the block indices of the map");
+  block_indices_ = DeviceBuffer(compute, capacity_ * sizeof(BlockRequest), "the block indices of the map");
   block_states_ = DeviceBuffer(compute, capacity_ * sizeof(int), "the block states of the map");
-  request_transfer_ = DeviceBuffer(compute, kTransferBlocks * sizeof(Request), "block requests");
+  request_transfer_ = DeviceBuffer(compute, kTransferBlocks * sizeof(BlockRequest), "block requests");
   slot_transfer_ = DeviceBuffer(compute, kTransferBlocks * sizeof(int), "block slots");
   kernels_ = std::make_unique<Kernels>(compute, blockSizeOption(parameters_));
   reset(Eigen::Vector3d::Zero());
@@ -113,7 +108,7 @@ size_t BlockSparseMap::allocate(const std::vector<BlockIndex>& blocks) {
     // A batch lies wholly on one side of `met`, so that one kernel serves it.
     const size_t end = std::min(begin + kTransferBlocks, begin < met ? met : blocks.size());
     const int count = static_cast<int>(end - begin);
-    std::vector<Request> requests;
+    std::vector<BlockRequest> requests;
     std::vector<int> slots;
     for (size_t i = begin; i < end; ++i) {
       requests.push_back({blocks[i].x(), blocks[i].y(), blocks[i].z(), 0});
@@ -169,10 +164,7 @@ std::vector<BlockSparseMap::Block> BlockSparseMap::blocks() const {
   for (int slot = 0; slot < slot_bound_; ++slot) {
     if (slot_in_use_[slot]) blocks.push_back({slot_blocks_[slot], slot});
   }
-  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) {
-    return std::make_tuple(a.index.z(), a.index.y(), a.index.x()) <
-           std::make_tuple(b.index.z(), b.index.y(), b.index.x());
-  });
+  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return before(a.index, b.index); });
   return blocks;
 }
 

@@ -2,11 +2,22 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 
 #include "depth_fusion/map/block_sparse_map.h"
 #include "shared/types.h"
 
 namespace depth_fusion {
+
+// A block that is asked for, as kernels have it: an int4.
+struct BlockRequest {
+  int x, y, z, unused;
+};
+
+// The order of lists of blocks: by z, then y, then x.
+inline bool before(const BlockSparseMap::BlockIndex& a, const BlockSparseMap::BlockIndex& b) {
+  return std::make_tuple(a.z(), a.y(), a.x()) < std::make_tuple(b.z(), b.y(), b.x());
+}
 
 GridArgs gridArgs(const BlockSparseMap& map);
 

@@ -5,6 +5,7 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/compute/device_image.h"
 #include "model_view/model_view_kernels.h"
+#include "shared/types.h"
 
 namespace depth_fusion {
 namespace {
@@ -24,8 +25,8 @@ ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& ma
                                      const CameraIntrinsics& camera)
     : compute_(compute),
       map_(map),
-      nearest_(compute, rangeTiles(camera, Kernels::kRangeTile) * sizeof(float), "ray ranges"),
-      farthest_(compute, rangeTiles(camera, Kernels::kRangeTile) * sizeof(float), "ray ranges"),
+      nearest_(compute, rangeTiles(camera, RANGE_TILE) * sizeof(float), "ray ranges"),
+      farthest_(compute, rangeTiles(camera, RANGE_TILE) * sizeof(float), "ray ranges"),
       coarse_(zeroImage(compute, camera, 1)),
       kernels_(std::make_unique<Kernels>(compute, map.parameters())) {
   view_.camera = camera;

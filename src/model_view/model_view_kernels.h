@@ -8,7 +8,6 @@ namespace depth_fusion {
 
 class ModelViewRenderer::Kernels {
  public:
-  static constexpr int kRangeTile = 8;
 
   Kernels(ComputeContext& compute, const MapParameters& map);
 

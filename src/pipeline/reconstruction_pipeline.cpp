@@ -1,5 +1,6 @@
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -28,12 +29,20 @@ Vector6d velocityOver(const Pose& T_before_now, double seconds) {
   return twistFromPose(T_before_now) / seconds;
 }
 
+// Where the sensor's noise limits the range, every stage goes by it.
+PipelineParameters withinSensorRange(PipelineParameters parameters) {
+  float& max_range_m = parameters.preprocessing.max_range_m;
+  max_range_m = std::min(max_range_m, parameters.depth_sensor.maxRange_m());
+  return parameters;
+}
+
 }  // namespace
 
 ParameterTable PipelineParameters::table() {
   ParameterTable all;
   for (const auto& [stage, table] :
-       {std::make_pair("map", map.table()), std::make_pair("preprocessing", preprocessing.table()),
+       {std::make_pair("map", map.table()), std::make_pair("depth_sensor", depth_sensor.table()),
+        std::make_pair("preprocessing", preprocessing.table()),
         std::make_pair("texture_odometry", texture_odometry.table()),
         std::make_pair("icp_tracking", icp_tracking.table()),
         std::make_pair("relocalisation", relocalisation.table()), std::make_pair("tsdf_fusion", tsdf_fusion.table()),
@@ -47,9 +56,9 @@ ParameterTable PipelineParameters::table() {
 ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
                                                const CameraIntrinsics& camera)
     : compute_(compute),
-      parameters_(parameters),
+      parameters_(withinSensorRange(parameters)),
       map_(compute, parameters.map),
-      preprocessor_(compute, parameters.preprocessing, camera),
+      preprocessor_(compute, parameters.preprocessing, camera, parameters.depth_sensor),
       odometry_(parameters.texture_odometry),
       tracker_(compute, parameters.icp_tracking, camera),
       relocaliser_(parameters.relocalisation),

@@ -6,6 +6,7 @@ namespace depth_fusion {
 namespace {
 
 constexpr char kFile[] = "preprocessing/depth_preprocessing.cl";
+constexpr char kMeasurementsFile[] = "preprocessing/pack_measurements.cl";
 
 }  // namespace
 
@@ -17,6 +18,8 @@ DepthPreprocessingKernels::DepthPreprocessingKernels(ComputeContext& compute)
       bilateral_(compute, kFile, "filter_bilateral"),
       halve_(compute, kFile, "halve_depth"),
       normals_(compute, kFile, "compute_normals"),
+      pack_(compute, kMeasurementsFile, "pack_measurements"),
+      pack_weighted_(compute, kMeasurementsFile, "pack_measurements", "-DWEIGHTS"),
       tiles_(compute, kFile, "max_tiles") {}
 
 void DepthPreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input, DeviceBuffer& depth,
@@ -30,13 +33,14 @@ void DepthPreprocessingKernels::compensateMotion(const DeviceBuffer& depth, Devi
 }
 
 void DepthPreprocessingKernels::filterBilateral(const DeviceBuffer& depth, DeviceBuffer& filtered,
-                                                const CameraIntrinsics& camera, const BilateralArgs& args) {
-  bilateral_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, filtered, toArgs(camera), args);
+                                                const CameraIntrinsics& camera, const SensorArgs& sensor,
+                                                const BilateralArgs& args) {
+  bilateral_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, filtered, toArgs(camera), sensor, args);
 }
 
 void DepthPreprocessingKernels::halveDepth(const DepthLevel& level, DepthLevel& half, float cutoff_sigmas) {
   halve_.run2d(half.camera.width, half.camera.height, level.depth, half.depth, toArgs(level.camera),
-               toArgs(half.camera), cutoff_sigmas);
+               toArgs(half.camera), toArgs(level.sensor), cutoff_sigmas);
 }
 
 void DepthPreprocessingKernels::computeNormals(const DeviceBuffer& depth, DeviceBuffer& normals,
@@ -45,10 +49,19 @@ void DepthPreprocessingKernels::computeNormals(const DeviceBuffer& depth, Device
                  static_cast<int>(planeElements(camera)), max_relative_step);
 }
 
+void DepthPreprocessingKernels::packMeasurements(const DepthFrame& frame, const DeviceBuffer& weights,
+                                                 DeviceBuffer& measurements) {
+  const DepthLevel& level = frame.levels[0];
+  Kernel& pack = weights.bytes() == 0 ? pack_ : pack_weighted_;
+  pack.run2d(columns(level.camera), level.camera.height, level.depth, level.normals, weights, measurements,
+             toArgs(level.camera), static_cast<int>(planeElements(level.camera)), toArgs(level.sensor),
+             frame.depth_step_m);
+}
+
 void DepthPreprocessingKernels::maxTiles(const DeviceBuffer& depth, DeviceBuffer& tiles,
                                          const CameraIntrinsics& camera) {
-  const int tile_columns = (camera.width + kTile - 1) / kTile;
-  const int tile_count = tile_columns * ((camera.height + kTile - 1) / kTile);
+  const int tile_columns = (camera.width + DEPTH_TILE - 1) / DEPTH_TILE;
+  const int tile_count = tile_columns * ((camera.height + DEPTH_TILE - 1) / DEPTH_TILE);
   tiles_.run(tile_count, depth, tiles, toArgs(camera), tile_columns, tile_count);
 }
 

@@ -1,5 +1,6 @@
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "depth_fusion/common/error.h"
@@ -8,6 +9,9 @@
 
 namespace depth_fusion {
 namespace {
+
+// Tiles along an axis.
+size_t tiles(int pixels) { return (pixels + DEPTH_TILE - 1) / DEPTH_TILE; }
 
 SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParameters& parameters) {
   SensorMotionArgs motion{{}, {}, parameters.readout_s, parameters.stamp_delay_s};
@@ -21,16 +25,18 @@ SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParam
 }  // namespace
 
 ParameterTable PreprocessingParameters::table() {
-  return {{"min_range_m", &min_range_m, 0.0, 100.0, "nearer depth is left out"},
-          {"max_range_m", &max_range_m, 0.01, 100.0, "farther depth is left out"},
-          {"readout_s", &readout_s, 0.0, 1.0,
-           "rolling shutter: from the first row's exposure to the last's; 0: all at once (global shutter)"},
-          {"stamp_delay_s", &stamp_delay_s, -1.0, 1.0, "from the last row's exposure to the stamp"},
-          {"bilateral_sigma_px", &bilateral_sigma_px, 0.1, 10.0, "width of the bilateral filter in the image"},
-          {"bilateral_cutoff_sigmas", &bilateral_cutoff_sigmas, 0.1, 100.0,
-           "depth difference, in standard deviations of the sensor, at which a neighbour counts no more"},
-          {"max_relative_step", &max_relative_step, 0.001, 1.0,
-           "depth step between neighbours two pixels apart, as a fraction of the depth, across which no normal is computed"}};
+  return {
+      {"min_range_m", &min_range_m, 0.0, 100.0, "nearer depth is left out"},
+      {"max_range_m", &max_range_m, 0.01, 100.0, "farther depth is left out"},
+      {"readout_s", &readout_s, 0.0, 1.0,
+       "rolling shutter: from the first row's exposure to the last's; 0: all at once (global shutter)"},
+      {"stamp_delay_s", &stamp_delay_s, -1.0, 1.0, "from the last row's exposure to the stamp"},
+      {"bilateral_sigma_px", &bilateral_sigma_px, 0.1, 10.0, "width of the bilateral filter in the image"},
+      {"bilateral_cutoff_sigmas", &bilateral_cutoff_sigmas, 0.1, 100.0,
+       "depth difference, in standard deviations of the sensor, at which a neighbour counts no more"},
+      {"max_relative_step", &max_relative_step, 0.001, 1.0,
+       "depth step between neighbours two pixels apart, as a fraction of the depth, across which no normal "
+       "is computed"}};
 }
 
 struct DepthPreprocessor::Kernels : DepthPreprocessingKernels {
@@ -38,25 +44,30 @@ struct DepthPreprocessor::Kernels : DepthPreprocessingKernels {
 };
 
 DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const PreprocessingParameters& parameters,
-                                     const CameraIntrinsics& camera)
-    : parameters_(parameters), kernels_(std::make_unique<Kernels>(compute)) {
+                                     const CameraIntrinsics& camera, const DepthSensorParameters& sensor)
+    : compute_(compute), parameters_(parameters), kernels_(std::make_unique<Kernels>(compute)) {
   validate(parameters_.table());
+  validate(DepthSensorParameters(sensor).table());
+  parameters_.max_range_m = std::min(parameters_.max_range_m, sensor.maxRange_m());
   check(parameters_.min_range_m < parameters_.max_range_m,
-        "preprocessing/min_range_m must be below preprocessing/max_range_m");
-  check(camera.valid(), "the depth camera's intrinsics are not valid; give them with --intrinsics fx,fy,cx,cy");
+        "preprocessing/min_range_m must be below preprocessing/max_range_m and the range of "
+        "depth_sensor/max_sigma_m");
+  check(camera.valid(),
+        "the depth camera's intrinsics are not valid; give them with --intrinsics fx,fy,cx,cy");
   const size_t pixels = static_cast<size_t>(camera.width) * camera.height;
   input_ = DeviceBuffer(compute, (pixels + 16) * sizeof(float), "the depth image");
   skewed_depth_ = zeroImage(compute, camera, 1);
   result_.raw_depth = zeroImage(compute, camera, 1);
-  const int tile = DepthPreprocessingKernels::kTile;
-  result_.max_tiles = DeviceBuffer(
-      compute, sizeof(float) * ((camera.width + tile - 1) / tile) * ((camera.height + tile - 1) / tile), "depth tiles");
+  result_.measurements = zeroImage(compute, camera, 1);
+  result_.depth_step_m = parameters_.max_range_m / MEASUREMENT_DEPTH_MAX;
+  result_.max_tiles =
+      DeviceBuffer(compute, sizeof(float) * tiles(camera.width) * tiles(camera.height), "depth tiles");
   CameraIntrinsics level_camera = camera;
   for (int level = 0; level < kLevels; ++level) {
     check(level_camera.width > 2 && level_camera.height > 2,
           "depth images of " + sizeText(camera.width, camera.height) + " are too small");
     result_.levels.push_back(
-        {level_camera, zeroImage(compute, level_camera, 1), zeroImage(compute, level_camera, 3)});
+        {level_camera, zeroImage(compute, level_camera, 1), zeroImage(compute, level_camera, 3), sensor});
     level_camera = halved(level_camera);
   }
 }
@@ -85,13 +96,28 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
     kernels_->compensateMotion(skewed_depth_, result_.raw_depth, camera, sensorMotion(velocity, parameters_));
   }
   kernels_->maxTiles(result_.raw_depth, result_.max_tiles, camera);
-  kernels_->filterBilateral(result_.raw_depth, result_.levels[0].depth, camera, bilateral);
+  kernels_->filterBilateral(result_.raw_depth, result_.levels[0].depth, camera,
+                            toArgs(result_.levels[0].sensor), bilateral);
   for (int i = 0; i < kLevels; ++i) {
     DepthLevel& level = result_.levels[i];
     if (i > 0) kernels_->halveDepth(result_.levels[i - 1], level, parameters_.bilateral_cutoff_sigmas);
     kernels_->computeNormals(level.depth, level.normals, level.camera, parameters_.max_relative_step);
   }
+  uploadWeights(frame.weights);
+  const DeviceBuffer none;
+  kernels_->packMeasurements(result_, frame.weights.empty() ? none : weights_, result_.measurements);
   return result_;
+}
+
+void DepthPreprocessor::uploadWeights(const cv::Mat& weights) {
+  if (weights.empty()) return;
+  const CameraIntrinsics& camera = result_.levels[0].camera;
+  check(weights.type() == CV_32FC1, "the weights of depth pixels must be 32-bit floats");
+  check(weights.cols == camera.width && weights.rows == camera.height,
+        "a map of weights is " + sizeText(weights.cols, weights.rows) + ", its depth image " +
+            sizeText(camera.width, camera.height));
+  if (weights_.bytes() == 0) weights_ = zeroImage(compute_, camera, 1);
+  writeImage(weights_, camera, weights);
 }
 
 }  // namespace depth_fusion

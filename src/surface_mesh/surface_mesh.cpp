@@ -66,7 +66,7 @@ size_t emitBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map,
 }  // namespace
 
 ParameterTable SurfaceMeshParameters::table() {
-  return {{"min_weight", &min_weight, 0, 255, "weight from which on a voxel counts as known"},
+  return {{"min_certainty", &min_certainty, 0, 255, "certainty (see tsdf_fusion/rule) from which on a voxel counts as known"},
           {"max_batch_blocks", &max_batch_blocks, 8, 8192,
            "blocks extracted at a time, if 16 MiB hold so many; fewer take less memory"}};
 }
@@ -74,7 +74,7 @@ ParameterTable SurfaceMeshParameters::table() {
 MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockSparseMap& map, MeshSink& sink,
                                  SurfaceMeshParameters parameters) {
   validate(parameters.table());
-  SurfaceMeshKernels kernels(compute, map, parameters.min_weight,
+  SurfaceMeshKernels kernels(compute, map, parameters.min_certainty,
                              static_cast<size_t>(parameters.max_batch_blocks));
   std::vector<MeshBlock> blocks = mortonOrderedBlocks(map);
   MeshStatistics statistics;

@@ -30,10 +30,10 @@ size_t fittingBlocks(const MapParameters& map, size_t max_batch_blocks) {
 
 }  // namespace
 
-SurfaceMeshKernels::SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& map, int min_weight,
+SurfaceMeshKernels::SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& map, int min_certainty,
                                        size_t max_batch_blocks)
     : map_(map),
-      min_weight_(min_weight),
+      min_certainty_(min_certainty),
       rows_(static_cast<size_t>(map.parameters().block_size) * map.parameters().block_size),
       padded_size_(static_cast<size_t>(map.parameters().block_size) + 3),
       limits_{fittingBlocks(map.parameters(), max_batch_blocks), kBatchVertices, kBatchTriangles},
@@ -72,7 +72,7 @@ void SurfaceMeshKernels::classify(const std::vector<MeshBlockArgs>& blocks) {
   const int count = static_cast<int>(blocks.size());
   block_args_.write(blocks);
   gather_.run(blocks.size() * padded_size_, volume_, row_masks_, map_.voxels(), map_.offsets(), block_args_,
-              count, min_weight_, gridArgs(map_));
+              count, min_certainty_, gridArgs(map_));
   classify_.run(blocks.size() * rows_, row_vertices_, row_triangles_, row_masks_, table_, count);
   scan_.run(blocks.size(), row_vertices_, row_triangles_, totals_, count);
 }

@@ -14,7 +14,7 @@ class SurfaceMeshKernels {
   };
 
   // Allocates memory for batches of up to max_batch_blocks blocks, fewer where that would take too much.
-  SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& map, int min_weight, size_t max_batch_blocks);
+  SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& map, int min_certainty, size_t max_batch_blocks);
 
   const BatchLimits& limits() const { return limits_; }
   size_t deviceBytes() const;
@@ -31,7 +31,7 @@ class SurfaceMeshKernels {
 
  private:
   BlockSparseMap& map_;
-  int min_weight_;
+  int min_certainty_;
   size_t rows_;         // of a block
   size_t padded_size_;  // voxels per axis of a gathered block
   BatchLimits limits_;

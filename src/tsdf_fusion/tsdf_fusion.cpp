@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <cstring>
 
+#include "map/map_args.h"
+#include "preprocessing/sensor_args.h"
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
 namespace depth_fusion {
@@ -11,12 +13,9 @@ namespace {
 
 constexpr int kRequestCapacity = 65536;
 
-struct Request {
-  int x, y, z, unused;
-};
-
-bool byIndex(const BlockSparseMap::BlockIndex& a, const BlockSparseMap::BlockIndex& b) {
-  return std::make_tuple(a.z(), a.y(), a.x()) < std::make_tuple(b.z(), b.y(), b.x());
+FusionParameters validated(FusionParameters parameters) {
+  validate(parameters.table());
+  return parameters;
 }
 
 // Sampling points lie at most half a block apart across the rays, at a depth of 3 m, and along them.
@@ -29,24 +28,69 @@ SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& ca
   return args;
 }
 
+// By the Kalman filter, a distance whose sigma is above half the truncation says nothing any more.
+int minCertainty(const FusionParameters& parameters, const MapParameters& map) {
+  return parameters.rule == "kalman" ? std::max(certaintyOf(0.25f * map.truncation_m * map.truncation_m), 1)
+                                     : 1;
+}
+
 }  // namespace
 
+int certaintyOf(float variance_m2) {
+  int bits = 0;
+  std::memcpy(&bits, &variance_m2, sizeof(bits));
+  return std::clamp((VARIANCE_BITS_MAX - bits) / VARIANCE_BITS_STEP + 1, 0, CERTAINTY_MAX);
+}
+
+FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,
+                      int frame_number) {
+  FusionArgs args{};
+  args.depth_step_m = frame.depth_step_m;
+  args.variance_at_1m_m2 = std::pow(AXIAL_SIGMA_M(frame.levels[0].sensor, 1.0f), 2.0f);
+  args.gain_at_1m = parameters.gain_at_1m;
+  args.weight_at_1m = parameters.weight_at_1m;
+  args.max_weight = parameters.max_weight;
+  args.process_variance_m2 = parameters.process_sigma_m * parameters.process_sigma_m;
+  args.free_space_sigmas = parameters.free_space_sigmas;
+  args.free_space_kept = 1.0f - parameters.free_space_rate;
+  args.min_certainty = minCertainty(parameters, map);
+  args.frame = frame_number;
+  return args;
+}
+
 ParameterTable FusionParameters::table() {
-  return {{"weight_at_1m", &weight_at_1m, 0.1, 255.0, "weight of a measurement at 1 m; falls with the depth's square"},
-          {"max_weight", &max_weight, 1.0, 255.0, "bound of a voxel's weight (the paper's W_max)"}};
+  return {
+      {"rule", &rule, 0.0, 0.0, "how measurements change a voxel", {"kalman", "weighted", "average"}},
+      {"distance",
+       &distance,
+       0.0,
+       0.0,
+       "from a voxel to the surface: along its ray, to the plane that the ray hits, or to the plane nearest "
+       "to it",
+       {"projective", "plane", "refined"}},
+      {"gain_at_1m", &gain_at_1m, 1e-3, 1.0,
+       "average: gain (the paper's w_k) of a measurement at 1 m; falls with the variance"},
+      {"weight_at_1m", &weight_at_1m, 0.1, 255.0,
+       "weighted: weight (w_k) of a measurement at 1 m; falls with the variance"},
+      {"max_weight", &max_weight, 1.0, 255.0, "weighted: bound of a voxel's weight (W_max)"},
+      {"process_sigma_m", &process_sigma_m, 0.0, 0.05,
+       "kalman: how far a surface may move in a frame, the square root of Q"},
+      {"free_space_sigmas", &free_space_sigmas, 0.0, 100.0,
+       "how far beyond the truncation the surface must be for a voxel to be free, in standard deviations"},
+      {"free_space_rate", &free_space_rate, 0.0, 0.9,
+       "part of its certainty that a free voxel loses a frame"}};
 }
 
 TsdfFusion::TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const FusionParameters& parameters)
     : compute_(compute),
       map_(map),
-      parameters_(parameters),
-      requests_(compute, kRequestCapacity * sizeof(Request), "block requests"),
+      parameters_(validated(parameters)),
+      requests_(compute, kRequestCapacity * sizeof(BlockRequest), "block requests"),
       visible_(compute, map.usage().capacity * sizeof(int), "the list of visible blocks"),
       empty_(compute, map.usage().capacity * sizeof(int), "the list of empty blocks"),
       count_(compute, sizeof(int), "a list's length"),
-      kernels_(std::make_unique<Kernels>(compute, map.parameters())) {
-  validate(parameters_.table());
-}
+      points_outside_(compute, sizeof(int), "the count of surface points"),
+      kernels_(std::make_unique<Kernels>(compute, map.parameters(), parameters_)) {}
 
 TsdfFusion::~TsdfFusion() = default;
 
@@ -63,7 +107,7 @@ FusionResult TsdfFusion::integrate(const DepthFrame& frame, const Pose& T_W_D, S
   const int visible_count = static_cast<int>(result.blocks_updated);
   {
     const StageTimers::Scope timer(timers, "tsdf_fusion/integrate");
-    const FusionArgs args{parameters_.weight_at_1m, 0.25f, 16.0f, parameters_.max_weight, frame_number_++};
+    const FusionArgs args = fusionArgs(parameters_, map_.parameters(), frame, frame_number_++);
     kernels_->integrateBlocks(frame, map_, visible_, visible_count, T_D_W, args);
     compute_.finish();
   }
@@ -83,19 +127,21 @@ void TsdfFusion::allocateBlocks(const DepthFrame& frame, const Pose& T_W_D, Fusi
   const SelectionArgs args = selectionArgs(map_.parameters(), frame.levels[0].camera);
   for (bool list_was_full = true; list_was_full;) {
     count_.fill(0, sizeof(int));
-    kernels_->requestBlocks(frame, map_, requests_, count_, T_W_D, args);
+    points_outside_.fill(0, points_outside_.bytes());
+    kernels_->requestBlocks(frame, map_, requests_, count_, points_outside_, T_W_D, args);
     const int count = count_.read<int>(1).front();
     list_was_full = count > args.capacity;
     std::vector<BlockSparseMap::BlockIndex> blocks;
-    for (const Request& request : requests_.read<Request>(std::min(count, args.capacity))) {
+    for (const BlockRequest& request : requests_.read<BlockRequest>(std::min(count, args.capacity))) {
       blocks.emplace_back(request.x, request.y, request.z);
     }
-    std::sort(blocks.begin(), blocks.end(), byIndex);
+    std::sort(blocks.begin(), blocks.end(), before);
     const size_t allocated = map_.allocate(blocks);
     result.blocks_requested += blocks.size();
     result.blocks_allocated += allocated;
-    if (allocated < blocks.size()) return;
+    if (allocated < blocks.size()) break;
   }
+  result.points_outside = points_outside_.read<int>(1).front();
 }
 
 }  // namespace depth_fusion

@@ -1,43 +1,68 @@
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
+#include <algorithm>
+
 #include "geometry/kernel_args.h"
 #include "map/map_args.h"
+#include "preprocessing/sensor_args.h"
 
 namespace depth_fusion {
+namespace {
 
-TsdfFusion::Kernels::Kernels(ComputeContext& compute, const MapParameters& map)
+// In the order of the FUSION_ and DISTANCE_ constants of types.h.
+const std::vector<std::string> kRules = {"average", "weighted", "kalman"};
+const std::vector<std::string> kDistances = {"projective", "plane", "refined"};
+
+std::string positionOf(const std::string& name, const std::vector<std::string>& names) {
+  return std::to_string(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+std::string ruleOptions(const FusionParameters& parameters) {
+  return " -DFUSION_RULE=" + positionOf(parameters.rule, kRules) +
+         " -DFUSION_DISTANCE=" + positionOf(parameters.distance, kDistances);
+}
+
+}  // namespace
+
+TsdfFusion::Kernels::Kernels(ComputeContext& compute, const MapParameters& map,
+                             const FusionParameters& parameters)
     : items_per_block_(compute.impl().simd_width == 1 ? map.block_size * map.block_size * map.block_size
                                                       : map.block_size),
       request_(compute, "tsdf_fusion/select_blocks.cl", "request_blocks", blockSizeOption(map)),
       visible_(compute, "tsdf_fusion/select_blocks.cl", "list_visible_blocks", blockSizeOption(map)),
-      integrate_(compute, "tsdf_fusion/integrate_blocks.cl", "integrate_blocks", blockSizeOption(map)),
+      integrate_(compute, "tsdf_fusion/integrate_blocks.cl", "integrate_blocks",
+                 blockSizeOption(map) + ruleOptions(parameters)),
       empty_(compute, "tsdf_fusion/select_blocks.cl", "list_empty_blocks", blockSizeOption(map)) {}
 
 void TsdfFusion::Kernels::requestBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& requests,
-                                        DeviceBuffer& count, const Pose& T_W_D, const SelectionArgs& args) {
+                                        DeviceBuffer& count, DeviceBuffer& points_outside, const Pose& T_W_D,
+                                        const SelectionArgs& args) {
   const CameraIntrinsics& camera = frame.levels[0].camera;
   const auto samples = [&](int pixels) { return (pixels + args.stride_px - 1) / args.stride_px; };
-  request_.run2d(samples(camera.width), samples(camera.height), frame.raw_depth, map.offsets(),
-                 requests, count, toArgs(camera), toArgs(T_W_D), gridArgs(map), args);
+  request_.run2d(samples(camera.width), samples(camera.height), frame.raw_depth, map.offsets(), requests,
+                 count, points_outside, toArgs(camera), toArgs(T_W_D), gridArgs(map), args);
 }
 
-void TsdfFusion::Kernels::listVisibleBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& visible,
-                                            DeviceBuffer& count, const Pose& T_D_W) {
+void TsdfFusion::Kernels::listVisibleBlocks(const DepthFrame& frame, BlockSparseMap& map,
+                                            DeviceBuffer& visible, DeviceBuffer& count, const Pose& T_D_W) {
   visible_.run(map.slotBound(), map.blockIndices(), map.blockStates(), frame.max_tiles, visible, count,
                map.slotBound(), toArgs(frame.levels[0].camera), toArgs(T_D_W), gridArgs(map));
 }
 
-void TsdfFusion::Kernels::integrateBlocks(const DepthFrame& frame, BlockSparseMap& map, const DeviceBuffer& visible,
-                                          int visible_count, const Pose& T_D_W, const FusionArgs& args) {
+void TsdfFusion::Kernels::integrateBlocks(const DepthFrame& frame, BlockSparseMap& map,
+                                          const DeviceBuffer& visible, int visible_count, const Pose& T_D_W,
+                                          const FusionArgs& args) {
+  const DepthLevel& level = frame.levels[0];
   integrate_.run(visible_count * items_per_block_, map.voxels(), visible, visible_count, map.blockIndices(),
-                 map.blockStates(), frame.levels[0].depth, toArgs(frame.levels[0].camera), toArgs(T_D_W), gridArgs(map),
-                 args);
+                 map.blockStates(), frame.measurements, level.normals,
+                 static_cast<int>(planeElements(level.camera)), toArgs(level.camera), toArgs(T_D_W),
+                 gridArgs(map), toArgs(level.sensor), args);
 }
 
 void TsdfFusion::Kernels::listEmptyBlocks(BlockSparseMap& map, const DeviceBuffer& visible, int visible_count,
                                           DeviceBuffer& empty, DeviceBuffer& count) {
-  empty_.run(visible_count, map.offsets(), map.blockIndices(), map.blockStates(), visible, visible_count, empty,
-             count, gridArgs(map));
+  empty_.run(visible_count, map.offsets(), map.blockIndices(), map.blockStates(), visible, visible_count,
+             empty, count, gridArgs(map));
 }
 
 }  // namespace depth_fusion

@@ -7,18 +7,25 @@
 
 namespace depth_fusion {
 
+// The code of a variance in a voxel's second byte, 0 for one above the scale.
+int certaintyOf(float variance_m2);
+
+FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,
+                      int frame_number);
+
 class TsdfFusion::Kernels {
  public:
-  Kernels(ComputeContext& compute, const MapParameters& map);
+  Kernels(ComputeContext& compute, const MapParameters& map, const FusionParameters& parameters = {});
 
-  void requestBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& requests, DeviceBuffer& count,
-                     const Pose& T_W_D, const SelectionArgs& args);
-  void listVisibleBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& visible, DeviceBuffer& count,
-                         const Pose& T_D_W);
-  void integrateBlocks(const DepthFrame& frame, BlockSparseMap& map, const DeviceBuffer& visible, int visible_count,
-                       const Pose& T_D_W, const FusionArgs& args);
-  void listEmptyBlocks(BlockSparseMap& map, const DeviceBuffer& visible, int visible_count, DeviceBuffer& empty,
-                       DeviceBuffer& count);
+  void requestBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& requests,
+                     DeviceBuffer& count, DeviceBuffer& points_outside, const Pose& T_W_D,
+                     const SelectionArgs& args);
+  void listVisibleBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& visible,
+                         DeviceBuffer& count, const Pose& T_D_W);
+  void integrateBlocks(const DepthFrame& frame, BlockSparseMap& map, const DeviceBuffer& visible,
+                       int visible_count, const Pose& T_D_W, const FusionArgs& args);
+  void listEmptyBlocks(BlockSparseMap& map, const DeviceBuffer& visible, int visible_count,
+                       DeviceBuffer& empty, DeviceBuffer& count);
 
  private:
   size_t items_per_block_;

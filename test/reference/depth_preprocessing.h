@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -11,8 +12,9 @@
 
 namespace depth_fusion::reference {
 
+// Of the default sensor.
 inline double sensorSigma(double depth_m) {
-  return SENSOR_SIGMA_A + SENSOR_SIGMA_B * (depth_m - SENSOR_SIGMA_C) * (depth_m - SENSOR_SIGMA_C);
+  return 0.0012 + 0.0019 * (depth_m - 0.4) * (depth_m - 0.4);
 }
 
 // Calls visit(x, y, pixel) for every pixel of the image.
@@ -106,7 +108,44 @@ inline cv::Mat computeNormals(const cv::Mat& depth, const CameraIntrinsics& came
   return normals;
 }
 
-inline std::vector<float> maxTiles(const cv::Mat& depth, int tile = 16) {
+// Depth, cosine of the incidence and accuracy of each pixel, by the default sensor; 0 = no measurement.
+inline cv::Mat measurements(const cv::Mat& depth, const cv::Mat& normals, const cv::Mat& weights,
+                            const CameraIntrinsics& camera) {
+  const double lateral_px = 0.8;
+  const double edge_sigmas = 2.0;
+  cv::Mat result = cv::Mat::zeros(depth.size(), CV_32FC3);
+  forEachPixel<cv::Vec3f>(result, [&](int x, int y, cv::Vec3f& pixel) {
+    const double z = depth.at<float>(y, x);
+    const double weight = weights.empty() ? 1.0 : weights.at<float>(y, x);
+    if (z == 0.0 || !(weight > 0.0 && weight <= 1.0)) return;
+    const cv::Vec3d normal = normals.at<cv::Vec3f>(y, x);
+    const cv::Vec3d ray((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0);
+    const bool edge = normal[2] == 0.0;
+    const double cosine = edge ? 1.0 : std::clamp<double>(-normal.dot(ray) / cv::norm(ray), MIN_COSINE, 1.0);
+    const double lateral_m = lateral_px * z / camera.fx * std::tan(std::acos(cosine));
+    const double sigma = edge ? edge_sigmas * sensorSigma(z) : std::hypot(sensorSigma(z), lateral_m);
+    pixel = cv::Vec3d(z, cosine, sensorSigma(z) / sigma * std::sqrt(weight));
+  });
+  return result;
+}
+
+inline uint32_t packedMeasurement(const cv::Vec3f& measured, double depth_step_m) {
+  if (measured[0] == 0.0f) return 0;
+  const auto code = [](float fraction) {
+    return static_cast<uint32_t>(std::clamp(std::lround(fraction * MEASUREMENT_MAX), 1l, 1l * MEASUREMENT_MAX));
+  };
+  const auto depth = static_cast<uint32_t>(std::lround(measured[0] / depth_step_m));
+  return depth << (2 * MEASUREMENT_BITS) | code(measured[1]) << MEASUREMENT_BITS | code(measured[2]);
+}
+
+inline cv::Vec3f unpackedMeasurement(uint32_t word, double depth_step_m) {
+  const uint32_t mask = MEASUREMENT_MAX;
+  return {static_cast<float>((word >> (2 * MEASUREMENT_BITS)) * depth_step_m),
+          static_cast<float>(word >> MEASUREMENT_BITS & mask) / MEASUREMENT_MAX,
+          static_cast<float>(word & mask) / MEASUREMENT_MAX};
+}
+
+inline std::vector<float> maxTiles(const cv::Mat& depth, int tile = DEPTH_TILE) {
   const int columns = (depth.cols + tile - 1) / tile;
   std::vector<float> tiles(columns * ((depth.rows + tile - 1) / tile), 0.0f);
   for (int y = 0; y < depth.rows; ++y) {

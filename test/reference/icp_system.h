@@ -68,7 +68,7 @@ class IcpReference {
     if ((p - q).norm() >= max_distance_m_ || n.dot(T_M_D_.linear() * normal_D) <= min_normal_cosine_) return;
     const double sigma = sensorSigma(p_D.z());
     const double huber = std::min(1.0, huber_sigmas_ * sigma / std::max(std::abs(n.dot(p - q)), 1e-6));
-    addMatch(p, q, n, huber * std::pow(SENSOR_SIGMA_A / sigma, 2));
+    addMatch(p, q, n, huber * std::pow(ICP_UNIT_SIGMA_M / sigma, 2));
   }
 
   void addMatch(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& n, double weight) {

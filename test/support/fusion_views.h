@@ -46,17 +46,19 @@ inline Pose somePose(double scale = 1.0) {
   return poseFromTwist(scale * twist);
 }
 
-inline View viewOf(const cv::Mat& depth, const Pose& T_W_D = Pose::Identity()) {
-  return {kCamera, T_W_D, depth};
+inline View viewOf(const cv::Mat& depth, const Pose& T_W_D = Pose::Identity(),
+                   const CameraIntrinsics& camera = kCamera) {
+  const cv::Mat normals = reference::computeNormals(depth, camera, 0.05);
+  return {camera, T_W_D, depth, normals, quantised(reference::measurements(depth, normals, cv::Mat(), camera))};
 }
 
-inline FusionArgs fusionArgs(const FusionParameters& parameters = {}) {
-  return {parameters.weight_at_1m, 0.25f, 16.0f, parameters.max_weight, 0};
+inline DepthFrame frameOf(const View& view) {
+  return frameOfDepth(compute(), view.camera, view.depth, view.normals, view.measurements);
 }
 
 inline FusionResult integrate(TsdfFusion& fusion, const View& view) {
   StageTimers timers;
-  return fusion.integrate(frameOfDepth(compute(), view.camera, view.depth), view.T_W_D, timers);
+  return fusion.integrate(frameOf(view), view.T_W_D, timers);
 }
 
 inline Eigen::Vector3i voxelOf(const BlockIndex& block, int number, int m) {
@@ -67,7 +69,7 @@ inline Voxel voxelOf(const BlockContent& content, size_t number) {
   Voxel voxel;
   voxel.known = content.distances[number] != TSDF_CHI;
   voxel.steps = content.distances[number];
-  voxel.weight = content.weights[number];
+  voxel.certainty = content.certainties[number];
   return voxel;
 }
 

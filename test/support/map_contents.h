@@ -15,12 +15,12 @@ using BlockKey = std::array<int, 3>;  // z, y, x
 inline BlockKey keyOf(const BlockSparseMap::BlockIndex& block) { return {block.z(), block.y(), block.x()}; }
 inline BlockSparseMap::BlockIndex indexOf(const BlockKey& key) { return {key[2], key[1], key[0]}; }
 
-// Distances and weights of the M^3 voxels of a block.
+// Distances and certainties of the M^3 voxels of a block.
 struct BlockContent {
   std::vector<int8_t> distances;
-  std::vector<uint8_t> weights;
+  std::vector<uint8_t> certainties;
   bool operator==(const BlockContent& other) const {
-    return distances == other.distances && weights == other.weights;
+    return distances == other.distances && certainties == other.certainties;
   }
 };
 

@@ -25,13 +25,15 @@ class BlockRequests {
       : map_(map),
         kernels_(compute(), map.parameters()),
         list_(compute(), kCapacity * 4 * sizeof(int), "requests"),
-        count_(compute(), sizeof(int), "count") {}
+        count_(compute(), sizeof(int), "count"),
+        points_outside_(compute(), sizeof(int), "count") {}
 
   // The blocks that the kernel lists; count is what it counted.
   std::vector<BlockIndex> of(const View& view, SelectionArgs args, int& count) {
     count_.fill(0, sizeof(int));
-    const DepthFrame frame = frameOfDepth(compute(), view.camera, view.depth);
-    kernels_.requestBlocks(frame, map_, list_, count_, view.T_W_D, args);
+    points_outside_.fill(0, sizeof(int));
+    const DepthFrame frame = frameOf(view);
+    kernels_.requestBlocks(frame, map_, list_, count_, points_outside_, view.T_W_D, args);
     count = count_.read<int>(1).front();
     const int listed = std::min(count, args.capacity);
     const std::vector<int> entries = list_.read<int>(4 * listed);
@@ -46,7 +48,7 @@ class BlockRequests {
  private:
   BlockSparseMap& map_;
   TsdfFusion::Kernels kernels_;
-  DeviceBuffer list_, count_;
+  DeviceBuffer list_, count_, points_outside_;
 };
 
 std::set<BlockKey> keysOf(const std::vector<BlockIndex>& blocks) {
@@ -146,8 +148,8 @@ std::set<int> slotsToUpdate(BlockSparseMap& map, const View& view) {
   for (const BlockSparseMap::Block& block : map.blocks()) {
     for (int i = 0; i < m * m * m; ++i) {
       const Measurement measured =
-          measure(view, T_D_W, map.parameters(), fusionArgs(), block.index, voxelOf(block.index, i, m));
-      if (measured.ambiguous || !measured.voxel.known) continue;
+          measure(view, T_D_W, map.parameters(), FusionParameters(), block.index, voxelOf(block.index, i, m));
+      if (measured.ambiguous || measured.kind == Measurement::kNone) continue;
       slots.insert(block.slot);
       break;
     }
@@ -169,7 +171,7 @@ TEST_P(SelectionOfBlockSize, ListsEveryBlockThatTheFrameUpdates) {
   for (const double turn : {0.0, 1.0, 4.0, -7.0}) {
     const View view = viewOf(bumpyDepth(0.9), somePose(turn));
     const std::set<int> visible =
-        visibleSlots(map, frameOfDepth(compute(), view.camera, view.depth), view.T_W_D);
+        visibleSlots(map, frameOf(view), view.T_W_D);
     expectCoverage(visible, slotsToUpdate(map, view), map.usage().blocks);
   }
 }
@@ -184,7 +186,7 @@ TEST(BlockSelection, ListsEveryBlockThatAFilteredFrameUpdates) {
   input.depth = noisy;
   DepthPreprocessor preprocessor(compute(), {}, kCamera);
   const DepthFrame& frame = preprocessor.process(input);
-  const View view = viewOf(readImage(frame.levels[0].depth, kCamera, 1), somePose());
+  View view = viewOf(readImage(frame.levels[0].depth, kCamera, 1), somePose());
   expectCoverage(visibleSlots(map, frame, view.T_W_D), slotsToUpdate(map, view), map.usage().blocks);
 }
 

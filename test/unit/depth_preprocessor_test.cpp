@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
 
 #include "depth_fusion/compute/device_image.h"
@@ -105,6 +106,64 @@ TEST(DepthPreprocessor, EveryStepEqualsTheReference) {
   }
 }
 
+// The device's measurements, unpacked, against the reference's; depth differs by half a step, the others by half a code.
+void expectMeasurements(const DepthFrame& frame, const cv::Mat& weights) {
+  const DepthLevel& level = frame.levels[0];
+  const cv::Mat depth = readImage(level.depth, level.camera, 1);
+  const cv::Mat normals = readImage(level.normals, level.camera, 3);
+  cv::Mat expected = reference::measurements(depth, normals, weights, level.camera);
+  const cv::Mat words = readImage(frame.measurements, level.camera, 1);
+  reference::forEachPixel<cv::Vec3f>(expected, [&](int x, int y, const cv::Vec3f& pixel) {
+    uint32_t word = 0;
+    std::memcpy(&word, words.ptr<float>(y, x), sizeof(word));
+    const cv::Vec3f measured = reference::unpackedMeasurement(word, frame.depth_step_m);
+    ASSERT_NEAR(measured[0], pixel[0], 0.51f * frame.depth_step_m) << x << " " << y;
+    ASSERT_NEAR(measured[1], pixel[1], 0.52f / MEASUREMENT_MAX) << x << " " << y;
+    ASSERT_NEAR(measured[2], std::max(pixel[2], pixel[0] == 0.0f ? 0.0f : 1.0f / MEASUREMENT_MAX),
+                0.52f / MEASUREMENT_MAX)
+        << x << " " << y;
+  });
+}
+
+TEST(DepthPreprocessor, MeasurementsEqualTheReference) {
+  for (const auto& [width, height] : {std::pair{100, 75}, {33, 31}}) {
+    const CameraIntrinsics camera = cameraOfSize(width, height);
+    DepthPreprocessor preprocessor(compute(), {}, camera);
+    const DepthFrame& frame = preprocessor.process(frameOf(busyDepth(camera)));
+    expectMeasurements(frame, cv::Mat());
+    EXPECT_EQ(nonzeroPadding(frame.measurements, camera, 1), 0);
+  }
+}
+
+TEST(DepthPreprocessor, PixelsWithoutAProperWeightAreNotMeasured) {
+  const CameraIntrinsics camera = cameraOfSize(100, 75);
+  DepthPreprocessor preprocessor(compute(), {}, camera);
+  RgbdFrame input = frameOf(busyDepth(camera));
+  input.weights = cv::Mat(camera.height, camera.width, CV_32FC1);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  const std::vector<float> values = {1.0f, 0.25f, 1e-8f, 0.0f, -0.5f, nan, infinity, -infinity, 1.5f};
+  reference::forEachPixel<float>(input.weights, [&](int x, int, float& weight) { weight = values[x % 9]; });
+  expectMeasurements(preprocessor.process(input), input.weights);
+  input.weights = cv::Mat();
+  expectMeasurements(preprocessor.process(input), cv::Mat());
+}
+
+TEST(DepthPreprocessor, SensorLimitsTheRange) {
+  const CameraIntrinsics camera = cameraOfSize(50, 40);
+  DepthSensorParameters sensor;
+  sensor.max_sigma_m = 0.01f;
+  const double range_m = 0.4 + std::sqrt((0.01 - 0.0012) / 0.0019);
+  cv::Mat depth(40, 50, CV_32FC1, cv::Scalar(range_m + 0.01));
+  depth.colRange(0, 25).setTo(range_m - 0.01);
+  DepthPreprocessor preprocessor(compute(), {}, camera, sensor);
+  const cv::Mat in_range = readImage(preprocessor.process(frameOf(depth)).raw_depth, camera, 1);
+  EXPECT_EQ(cv::countNonZero(in_range), 25 * 40);
+  EXPECT_EQ(cv::countNonZero(in_range.colRange(25, 50)), 0);
+  sensor.sigma_base_m = 0.0f;
+  expectError([&] { DepthPreprocessor(compute(), {}, camera, sensor); }, {"sigma_base_m"});
+}
+
 TEST(DepthPreprocessor, LevelsAreHalvedCameras) {
   const CameraIntrinsics camera = cameraOfSize(101, 75);
   DepthPreprocessor preprocessor(compute(), {}, camera);
@@ -184,6 +243,11 @@ TEST(DepthPreprocessor, RefusesWhatItCannotUse) {
   expectError([&] { preprocessor.process(frameOf(cv::Mat::zeros(40, 50, CV_8UC1))); }, {"16-bit", "float"});
   expectError([&] { preprocessor.process(frameOf(cv::Mat())); }, {"depth image"});
   expectError([&] { preprocessor.process(frameOf(cv::Mat::zeros(40, 51, CV_16UC1))); }, {"51x40", "50x40"});
+  RgbdFrame weighted = frameOf(busyDepth(camera));
+  weighted.weights = cv::Mat::ones(40, 50, CV_8UC1);
+  expectError([&] { preprocessor.process(weighted); }, {"weights", "float"});
+  weighted.weights = cv::Mat::ones(39, 50, CV_32FC1);
+  expectError([&] { preprocessor.process(weighted); }, {"weights", "50x39", "50x40"});
   expectError([&] { DepthPreprocessor(compute(), {}, CameraIntrinsics()); }, {"--intrinsics"});
   expectError([&] { DepthPreprocessor(compute(), {}, cameraOfSize(10, 8)); }, {"10x8", "too small"});
   PreprocessingParameters parameters;

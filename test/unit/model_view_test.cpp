@@ -235,7 +235,7 @@ TEST_P(ModelViewOfBlockSize, BlockRangesHoldEveryHit) {
   const auto map = makeMap(mapParameters(GetParam()), hillDistance);
   ModelView view;
   view.camera = kCamera;
-  const int tile = ModelViewRenderer::Kernels::kRangeTile;
+  const int tile = RANGE_TILE;
   const int columns = (kCamera.width + tile - 1) / tile;
   const size_t tiles = columns * ((kCamera.height + tile - 1) / tile);
   ModelViewRenderer::Kernels kernels(compute(), map->parameters());

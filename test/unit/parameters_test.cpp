@@ -15,11 +15,13 @@ struct Stage {
   bool enabled = false;
   int levels = 3;
   float distance_m = 0.1f;
+  std::string kind = "round";
 
   ParameterTable table() {
     return {{"enabled", &enabled, 0.0, 0.0, "a flag"},
             {"levels", &levels, 1, 5, "a count"},
-            {"distance_m", &distance_m, 0.01, 2.0, "a distance"}};
+            {"distance_m", &distance_m, 0.01, 2.0, "a distance"},
+            {"kind", &kind, 0.0, 0.0, "a choice", {"round", "square"}}};
   }
 };
 
@@ -60,6 +62,17 @@ TEST(Parameters, SetsEveryType) {
   EXPECT_TRUE(stage.enabled);
   EXPECT_EQ(stage.levels, 4);
   EXPECT_FLOAT_EQ(stage.distance_m, 0.25f);
+  setParameter(stage.table(), "kind", "square");
+  EXPECT_EQ(stage.kind, "square");
+}
+
+TEST(Parameters, ChoicesAreNamed) {
+  EXPECT_EQ(errorOfSetting("kind", "oval"), "parameter 'kind' is 'oval'; it must be one of round, square");
+  Stage stage;
+  EXPECT_EQ(rangeText(stage.table()[2]), "[0.01, 2]");
+  EXPECT_EQ(rangeText(stage.table()[3]), "round, square");
+  stage.kind = "";
+  EXPECT_NE(errorOf([&] { validate(stage.table()); }).find("'kind'"), std::string::npos);
 }
 
 TEST(Parameters, UnknownNameSuggestsTheNearest) {

@@ -193,12 +193,12 @@ TEST(ReconstructionPipeline, TableNamesEveryStagesParameters) {
   setParameter(table, "tsdf_fusion/max_weight", "17");
   setParameter(table, "icp_tracking/fine_iterations", "3");
   setParameter(table, "preprocessing/max_range_m", "2.5");
-  setParameter(table, "surface_mesh/min_weight", "4");
+  setParameter(table, "surface_mesh/min_certainty", "4");
   EXPECT_EQ(parameters.map.voxel_size_m, 0.0125f);
   EXPECT_EQ(parameters.tsdf_fusion.max_weight, 17.0f);
   EXPECT_EQ(parameters.icp_tracking.fine_iterations, 3);
   EXPECT_EQ(parameters.preprocessing.max_range_m, 2.5f);
-  EXPECT_EQ(parameters.surface_mesh.min_weight, 4);
+  EXPECT_EQ(parameters.surface_mesh.min_certainty, 4);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST_F(SurfaceMesh, smallBatchesGiveTheSameBytes) {
 TEST_F(SurfaceMesh, parametersOutOfRangeAreErrors) {
   BlockSparseMap map(compute(), parameters(8));
   SurfaceMeshParameters parameters;
-  parameters.min_weight = 256;
+  parameters.min_certainty = 256;
   EXPECT_THROW(meshOf(map, parameters), Error);
   parameters = {};
   parameters.max_batch_blocks = 7;

@@ -197,7 +197,7 @@ TEST_P(SurfaceMeshOfBlockSize, voxelsBelowTheMinimumWeightAreUnknown) {
     if (weight(voxel) < 200) grid.at(voxel) = -128;
   });
   SurfaceMeshParameters parameters;
-  parameters.min_weight = 200;
+  parameters.min_certainty = 200;
   const TriangleMesh mesh = meshOf(map, parameters);
   EXPECT_GT(mesh.triangles.size(), 0u);
   expectSameMesh(mesh, ReferenceMarchingCubes(grid, map.parameters().voxel_size_m).mesh(),

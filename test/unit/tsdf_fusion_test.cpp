@@ -2,48 +2,56 @@
 
 #include <gtest/gtest.h>
 
+#include "support/expect_error.h"
 #include "support/fusion_views.h"
+#include "tsdf_fusion/tsdf_fusion_kernels.h"
 
 namespace depth_fusion {
 namespace {
 
-class FusionOfBlockSize : public testing::TestWithParam<int> {};
-
-INSTANTIATE_TEST_SUITE_P(BlockSizes, FusionOfBlockSize, testing::Values(4, 8, 16, 32));
-
 // How a byte may differ from the reference's number before it was rounded to the one below or above.
 struct RoundingErrors {
-  size_t updated = 0, skipped = 0, wrong = 0;
-  double sum_steps = 0.0, sum_weights = 0.0;
+  size_t voxels = 0, updated = 0, freed = 0, skipped = 0, wrong = 0;
+  double sum_steps = 0.0, sum_certainties = 0.0;
 
-  void add(const Voxel& expected, const Voxel& fused) {
+  void addHit(const Voxel& expected, const Voxel& fused) {
     ++updated;
     const double error = fused.steps - expected.steps;
-    const double weight_error = fused.weight - expected.weight;
-    const bool good_steps = fused.known ? std::abs(error) < 1.02 : expected.steps > TSDF_MAX - 0.02;
-    if (!good_steps || std::abs(weight_error) > 1.001) ++wrong;
-    sum_weights += weight_error;
-    if (fused.known) sum_steps += error;
+    const double certainty_error = fused.certainty - expected.certainty;
+    if (!fused.known || std::abs(error) > 1.02 || std::abs(certainty_error) > 1.001) ++wrong;
+    sum_certainties += certainty_error;
+    sum_steps += error;
+  }
+
+  void addFree(const Voxel& expected, const Voxel& fused, int min_certainty) {
+    ++freed;
+    const bool stays = fused.known && fused.steps == expected.steps && fused.certainty >= min_certainty &&
+                       std::abs(fused.certainty - expected.certainty) < 1.001;
+    const bool goes = !fused.known && expected.certainty < min_certainty + 0.001;
+    if (!stays && !goes) ++wrong;
   }
 };
 
 RoundingErrors compareWithReference(const MapContent& before, const MapContent& after, const View& view,
-                                    const MapParameters& map) {
+                                    const MapParameters& map, const FusionParameters& fusion) {
   RoundingErrors errors;
   const Pose T_D_W = view.T_W_D.inverse();
-  const FusionArgs args = fusionArgs();
+  const int min_certainty = fusionArgs(fusion, map, frameOf(view), 0).min_certainty;
   for (const auto& [key, content] : after) {
     const auto old = before.find(key);
     for (size_t i = 0; i < content.distances.size(); ++i) {
       const BlockIndex block = indexOf(key);
       const Measurement measured =
-          measure(view, T_D_W, map, args, block, voxelOf(block, static_cast<int>(i), map.block_size));
+          measure(view, T_D_W, map, fusion, block, voxelOf(block, static_cast<int>(i), map.block_size));
       const Voxel old_voxel = old == before.end() ? Voxel() : voxelOf(old->second, i);
       const Voxel fused = voxelOf(content, i);
+      ++errors.voxels;
       if (measured.ambiguous) {
         ++errors.skipped;
-      } else if (measured.voxel.known) {
-        errors.add(fuse(old_voxel, measured.voxel, args.max_weight), fused);
+      } else if (measured.kind == Measurement::kHit) {
+        errors.addHit(fuse(old_voxel, measured, fusion), fused);
+      } else if (measured.kind == Measurement::kFree && old_voxel.known) {
+        errors.addFree(fuse(old_voxel, measured, fusion), fused, min_certainty);
       } else if (fused.known != old_voxel.known || (fused.known && fused.steps != old_voxel.steps)) {
         ++errors.wrong;
       }
@@ -52,24 +60,63 @@ RoundingErrors compareWithReference(const MapContent& before, const MapContent& 
   return errors;
 }
 
-TEST_P(FusionOfBlockSize, EqualsTheReferenceFrameByFrame) {
-  const MapParameters parameters = mapParameters(GetParam(), 18, 0.16f / GetParam());
-  BlockSparseMap map(compute(), parameters);
-  TsdfFusion fusion(compute(), map, {});
+FusionParameters fusionBy(const std::string& rule, const std::string& distance) {
+  FusionParameters parameters;
+  parameters.rule = rule;
+  parameters.distance = distance;
+  return parameters;
+}
+
+void expectTheReference(const MapParameters& map_parameters, const FusionParameters& fusion_parameters) {
+  BlockSparseMap map(compute(), map_parameters);
+  TsdfFusion fusion(compute(), map, fusion_parameters);
   MapContent before;
+  size_t freed = 0;
   for (int frame = 0; frame < 4; ++frame) {
-    const View view = viewOf(bumpyDepth(1.1 + 0.01 * frame), somePose(1.0 - 0.1 * frame));
+    const View view = viewOf(bumpyDepth(1.1 + 0.08 * frame), somePose(1.0 - 0.1 * frame));
     integrate(fusion, view);
     const MapContent after = readMap(map);
-    const RoundingErrors errors = compareWithReference(before, after, view, parameters);
+    const RoundingErrors errors =
+        compareWithReference(before, after, view, map_parameters, fusion_parameters);
     const double updated = static_cast<double>(errors.updated);
-    EXPECT_GT(errors.updated, 5000u);
-    EXPECT_EQ(errors.wrong, 0u) << "of " << errors.updated;
-    EXPECT_LT(errors.skipped, errors.updated / 50);
+    EXPECT_GT(errors.updated, 4000u);
+    EXPECT_LE(errors.wrong, errors.updated / 100000) << "of " << errors.updated << " and " << errors.freed;
+    EXPECT_LT(errors.skipped, errors.voxels / 50);
     EXPECT_NEAR(errors.sum_steps / updated, 0.0, 0.02) << "rounding is biased";
-    EXPECT_NEAR(errors.sum_weights / updated, 0.0, 0.02) << "rounding of weights is biased";
+    EXPECT_NEAR(errors.sum_certainties / updated, 0.0, 0.02) << "rounding of certainties is biased";
+    freed += errors.freed;
     before = after;
   }
+  EXPECT_GT(freed, 100u);
+}
+
+class FusionOfBlockSize : public testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(BlockSizes, FusionOfBlockSize, testing::Values(4, 8, 16, 32));
+
+TEST_P(FusionOfBlockSize, EqualsTheReferenceFrameByFrame) {
+  expectTheReference(mapParameters(GetParam(), 18, 0.16f / GetParam()), {});
+}
+
+using RuleAndDistance = std::tuple<std::string, std::string>;
+
+class FusionByRule : public testing::TestWithParam<RuleAndDistance> {};
+
+INSTANTIATE_TEST_SUITE_P(Rules, FusionByRule,
+                         testing::Combine(testing::Values("average", "weighted", "kalman"),
+                                          testing::Values("projective", "plane", "refined")));
+
+TEST_P(FusionByRule, EqualsTheReferenceFrameByFrame) {
+  expectTheReference(mapParameters(8, 18, 0.02f), fusionBy(std::get<0>(GetParam()), std::get<1>(GetParam())));
+}
+
+TEST(TsdfFusion, RefusesWhatIsNoRule) {
+  BlockSparseMap map(compute(), mapParameters());
+  expectError([&] { TsdfFusion(compute(), map, fusionBy("mean", "plane")); }, {"'rule'", "'mean'", "kalman"});
+  expectError([&] { TsdfFusion(compute(), map, fusionBy("kalman", "exact")); }, {"'distance'", "refined"});
+  FusionParameters parameters;
+  parameters.process_sigma_m = std::nanf("");
+  expectError([&] { TsdfFusion(compute(), map, parameters); }, {"process_sigma_m"});
 }
 
 struct Deviation {
@@ -82,65 +129,6 @@ Deviation deviationOf(const std::vector<double>& values) {
   return {mean[0], spread[0]};
 }
 
-struct TracedVoxel {
-  BlockIndex block;
-  int number;
-  Voxel exact, nearest;
-};
-
-// Voxels before and behind a wall at 1 m, some of each block.
-std::vector<TracedVoxel> voxelsToTrace(const BlockSparseMap& map) {
-  const int m = map.parameters().block_size;
-  std::vector<TracedVoxel> voxels;
-  for (const BlockSparseMap::Block& block : map.blocks()) {
-    for (int i = 0; i < m * m * m; i += 13) {
-      if (std::abs(voxelOf(block.index, i, m).z() * map.parameters().voxel_size_m - 1.0) < 0.011) {
-        voxels.push_back({block.index, i, {}, {}});
-      }
-    }
-  }
-  return voxels;
-}
-
-// A wall that stood at 1 m, long enough for all the weights to be at their bound, then moves by less than
-// half a step a frame: 8 bits rounded to the nearest never notice.
-TEST(TsdfFusion, EightBitsConvergeLikeFloats) {
-  const MapParameters parameters = mapParameters(8, 32, 0.01f);
-  BlockSparseMap map(compute(), parameters);
-  TsdfFusion fusion(compute(), map, {});
-  integrate(fusion, viewOf(wallDepth(1.0)));
-  std::vector<TracedVoxel> voxels = voxelsToTrace(map);
-  map.reset(Eigen::Vector3d::Zero());
-  cv::RNG random(4);
-  for (int frame = 0; frame < 450; ++frame) {
-    cv::Mat depth = wallDepth(frame < 80 ? 1.0 : 1.004);
-    reference::forEachPixel<float>(depth, [&](int, int, float& pixel) { pixel += random.gaussian(0.0005); });
-    const View view = viewOf(depth);
-    integrate(fusion, view);
-    for (TracedVoxel& voxel : voxels) {
-      const Voxel measured = measure(view, Pose::Identity(), parameters, fusionArgs(), voxel.block,
-                                     voxelOf(voxel.block, voxel.number, parameters.block_size))
-                                 .voxel;
-      voxel.exact = fuse(voxel.exact, measured, 255.0);
-      voxel.nearest = roundedToNearest(fuse(voxel.nearest, measured, 255.0));
-    }
-  }
-  const MapContent content = readMap(map);
-  std::vector<double> errors, errors_of_nearest;
-  for (const TracedVoxel& voxel : voxels) {
-    const auto block = content.find(keyOf(voxel.block));
-    if (!voxel.exact.known || block == content.end()) continue;
-    const Voxel fused = voxelOf(block->second, voxel.number);
-    ASSERT_TRUE(fused.known);
-    errors.push_back(fused.steps - voxel.exact.steps);
-    errors_of_nearest.push_back(voxel.nearest.steps - voxel.exact.steps);
-  }
-  ASSERT_GT(errors.size(), 500u);
-  EXPECT_NEAR(deviationOf(errors).mean, 0.0, 0.2);
-  EXPECT_LT(deviationOf(errors).spread, 1.5);
-  EXPECT_LT(deviationOf(errors_of_nearest).mean, -8.0) << "the test does not show what dither is for";
-}
-
 void expectDataInEveryBlock(BlockSparseMap& map) {
   for (const auto& [key, content] : readMap(map)) {
     const auto& distances = content.distances;
@@ -149,14 +137,18 @@ void expectDataInEveryBlock(BlockSparseMap& map) {
   }
 }
 
-TEST(TsdfFusion, FreeSpaceClearsWhatStoodThere) {
+class FreeSpaceByRule : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Rules, FreeSpaceByRule, testing::Values("average", "weighted", "kalman"));
+
+TEST_P(FreeSpaceByRule, ClearsWhatStoodThere) {
   BlockSparseMap map(compute(), mapParameters());
-  TsdfFusion fusion(compute(), map, {});
+  TsdfFusion fusion(compute(), map, fusionBy(GetParam(), "plane"));
   for (int i = 0; i < 100; ++i) integrate(fusion, viewOf(wallDepth(1.0)));
   const size_t before = map.usage().blocks;
   ASSERT_GT(before, 40u);
   size_t released = 0;
-  for (int i = 0; i < 100; ++i) released += integrate(fusion, viewOf(wallDepth(2.0))).blocks_released;
+  for (int i = 0; i < 30; ++i) released += integrate(fusion, viewOf(wallDepth(2.0))).blocks_released;
   EXPECT_GE(released, before / 2);
   for (const auto& [key, content] : readMap(map)) {
     for (size_t i = 0; i < content.distances.size(); ++i) {
@@ -167,6 +159,14 @@ TEST(TsdfFusion, FreeSpaceClearsWhatStoodThere) {
       }
     }
   }
+}
+
+TEST(TsdfFusion, CountsTheSurfaceOutsideOfTheWindow) {
+  BlockSparseMap map(compute(), mapParameters(8, 4));
+  TsdfFusion fusion(compute(), map, {});
+  EXPECT_GT(integrate(fusion, viewOf(wallDepth(3.0))).points_outside, 100u);
+  map.reset(Eigen::Vector3d(0.0, 0.0, 0.3));
+  EXPECT_EQ(integrate(fusion, viewOf(wallDepth(0.3))).points_outside, 0u);
 }
 
 TEST(TsdfFusion, BlocksWithoutDataAreReleased) {
@@ -214,7 +214,8 @@ TEST(TsdfFusion, AllocatesAllTheBlocksOfAFineMap) {
   BlockSparseMap map(compute(), parameters);
   map.reset(Eigen::Vector3d(0.0, 0.0, 3.0));
   TsdfFusion fusion(compute(), map, {});
-  const View wall{camera, Pose::Identity(), cv::Mat(camera.height, camera.width, CV_32FC1, cv::Scalar(3.0))};
+  const cv::Mat depth(camera.height, camera.width, CV_32FC1, cv::Scalar(3.0));
+  const View wall = viewOf(depth, Pose::Identity(), camera);
   const FusionResult first = integrate(fusion, wall);
   EXPECT_GT(first.blocks_requested, 100000u);
   EXPECT_EQ(first.blocks_allocated, first.blocks_requested);

@@ -7,13 +7,15 @@
 
 namespace depth_fusion {
 
-// A row bound to a member of a parameter struct. Minimum and maximum are inclusive and apply to numbers only.
+// A row bound to a member of a parameter struct. Minimum and maximum are inclusive and apply to numbers only, choices
+// to texts only.
 struct Parameter {
   std::string name;  // lower_snake_case, with the unit as suffix where it has one (truncation_m)
-  std::variant<bool*, int*, float*> value;
+  std::variant<bool*, int*, float*, std::string*> value;
   double minimum = 0.0;
   double maximum = 0.0;
   std::string help;
+  std::vector<std::string> choices = {};
 };
 
 using ParameterTable = std::vector<Parameter>;
@@ -30,6 +32,9 @@ void loadParameterFile(const ParameterTable& table, const std::string& path);
 
 // The current value of a row as text.
 std::string valueText(const Parameter& parameter);
+
+// The values that a row takes, as text.
+std::string rangeText(const Parameter& parameter);
 
 // Throws Error if a row's value lies outside its range (for values set in code rather than from text).
 void validate(const ParameterTable& table);

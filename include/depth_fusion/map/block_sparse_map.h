@@ -24,7 +24,7 @@ struct MapParameters {
 
 // A window of N^3 blocks of M^3 voxels. Two device buffers, both allocated once: `offsets`, one int a block (the slot
 // of its voxels in the pool, -1 = empty), and the pool of voxels, two bytes each: M^3 signed distance bytes (-128 = chi)
-// followed by M^3 weight bytes a slot. The host keeps the list of free slots. Block (i, j, k) covers the voxels
+// followed by M^3 certainty bytes a slot. The host keeps the list of free slots. Block (i, j, k) covers the voxels
 // M*(i, j, k) and on; voxel v samples the point voxel_size_m * v of W; a block's address in `offsets` is its index
 // modulo N in each axis, so that the window may start anywhere. With `color`, a third buffer holds four bytes more a voxel:
 // blue, green, red and weight (0 = none), M^3 of them a slot.

@@ -13,6 +13,7 @@ namespace depth_fusion {
 
 struct PipelineParameters {
   MapParameters map;
+  DepthSensorParameters depth_sensor;
   PreprocessingParameters preprocessing;
   TextureOdometryParameters texture_odometry;
   IcpTrackingParameters icp_tracking;

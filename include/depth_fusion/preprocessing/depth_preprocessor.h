@@ -7,6 +7,7 @@
 #include "depth_fusion/common/parameters.h"
 #include "depth_fusion/compute/compute_context.h"
 #include "depth_fusion/compute/device_buffer.h"
+#include "depth_fusion/preprocessing/depth_sensor.h"
 #include "depth_fusion/recording/rgbd_frame.h"
 
 namespace depth_fusion {
@@ -26,13 +27,16 @@ struct PreprocessingParameters {
 // A level of the pyramid, on the device (image layout: kernels/shared/types.h).
 struct DepthLevel {
   CameraIntrinsics camera;
-  DeviceBuffer depth;    // metres, 0 = none
-  DeviceBuffer normals;  // three planes: unit normals towards the camera in frame D, 0 = none
+  DeviceBuffer depth;                 // metres, 0 = none
+  DeviceBuffer normals;               // three planes: unit normals towards the camera in frame D, 0 = none
+  DepthSensorParameters sensor = {};  // the depth's noise
 };
 
 struct DepthFrame {
   DeviceBuffer raw_depth;          // metres in range, motion compensated, unfiltered, 0 = none; camera of levels[0]
   DeviceBuffer max_tiles;          // the largest raw depth of each 16x16 tile, row by row
+  DeviceBuffer measurements;       // what fusion needs of levels[0]: a word a pixel (kernels/shared/types.h)
+  float depth_step_m = 0.0f;       // of the measurements
   std::vector<DepthLevel> levels;  // filtered; full size first, each half the size of the one before
 };
 
@@ -41,20 +45,24 @@ class DepthPreprocessor {
   static constexpr int kLevels = 3;
 
   DepthPreprocessor(ComputeContext& compute, const PreprocessingParameters& parameters,
-                    const CameraIntrinsics& camera);
+                    const CameraIntrinsics& camera, const DepthSensorParameters& sensor = {});
   ~DepthPreprocessor();
 
   // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s); with it the depth becomes that
   // of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid until the next call.
-  // Throws Error if the depth's type or size is not the expected.
+  // Throws Error if the type or size of depth or weights is not the expected.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity = Vector6d::Zero());
 
  private:
   struct Kernels;
 
+  void uploadWeights(const cv::Mat& weights);
+
+  ComputeContext& compute_;
   PreprocessingParameters parameters_;
   DeviceBuffer input_;
   DeviceBuffer skewed_depth_;
+  DeviceBuffer weights_;  // empty until a frame has some
   DepthFrame result_;
   std::unique_ptr<Kernels> kernels_;
 };

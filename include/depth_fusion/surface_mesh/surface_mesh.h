@@ -8,7 +8,7 @@
 namespace depth_fusion {
 
 struct SurfaceMeshParameters {
-  int min_weight = 1;
+  int min_certainty = 1;
   int max_batch_blocks = 3072;
 
   ParameterTable table();

@@ -12,8 +12,14 @@
 namespace depth_fusion {
 
 struct FusionParameters {
+  std::string rule = "kalman";
+  std::string distance = "plane";
+  float gain_at_1m = 0.02f;
   float weight_at_1m = 4.0f;
   float max_weight = 255.0f;
+  float process_sigma_m = 3e-5f;
+  float free_space_sigmas = 2.0f;
+  float free_space_rate = 0.4f;
 
   ParameterTable table();
 };
@@ -23,6 +29,7 @@ struct FusionResult {
   size_t blocks_allocated = 0;  // less than requested: the pool is full, and the frame fused what fits
   size_t blocks_updated = 0;
   size_t blocks_released = 0;
+  size_t points_outside = 0;  // samples of the surface outside of the window: left out
 };
 
 class TsdfFusion {
@@ -32,8 +39,8 @@ class TsdfFusion {
   TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const FusionParameters& parameters);
   ~TsdfFusion();
 
-  // Fuses the filtered depth, seen from T_W_D, into the map; allocates the blocks it needs and releases those left
-  // empty.
+  // Fuses the frame's measurements, seen from T_W_D, into the map; allocates the blocks it needs and releases
+  // those left empty.
   FusionResult integrate(const DepthFrame& frame, const Pose& T_W_D, StageTimers& timers);
 
   // Slots of the blocks that the last frame updated, FusionResult::blocks_updated of them.
@@ -45,7 +52,7 @@ class TsdfFusion {
   ComputeContext& compute_;
   BlockSparseMap& map_;
   FusionParameters parameters_;
-  DeviceBuffer requests_, visible_, empty_, count_;
+  DeviceBuffer requests_, visible_, empty_, count_, points_outside_;
   std::unique_ptr<Kernels> kernels_;
   int frame_number_ = 0;
 };

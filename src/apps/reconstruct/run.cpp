@@ -60,6 +60,7 @@ class Run {
   bool is_lost_ = false;  // the frame before
   bool pool_was_full_ = false;
   bool color_was_bad_ = false;
+  bool window_was_left_ = false;
   bool failed_ = false;
 };
 
@@ -151,6 +152,11 @@ void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
     pool_was_full_ = true;
     complain("the voxel pool is full at frame " + std::to_string(counts_.read) +
              ": new surface is left out from here on; raise map/pool_mib or --voxel-size");
+  }
+  if (result.fusion.points_outside > 0 && !window_was_left_) {
+    window_was_left_ = true;
+    std::cerr << "reconstruct: " << result.fusion.points_outside << " samples of the surface lie outside of the map's "
+              << "window at frame " << counts_.read << " and are left out; raise map/blocks_per_axis" << std::endl;
   }
 }
 

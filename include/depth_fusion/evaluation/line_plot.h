@@ -1,0 +1,23 @@
+// Pictures of lines with axes and a legend.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace depth_fusion {
+
+struct PlotLine {
+  std::string name;
+  std::vector<cv::Point2d> points;
+};
+
+struct LinePlot {
+  std::string title, x_label, y_label;
+  std::vector<PlotLine> lines;
+};
+
+// CV_8UC3 BGR; both axes begin at 0. Throws Error without points.
+cv::Mat draw(const LinePlot& plot);
+
+}  // namespace depth_fusion

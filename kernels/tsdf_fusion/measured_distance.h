@@ -1,0 +1,83 @@
+// How far in front of the measured surface a point is. FUSION_DISTANCE: DISTANCE_PROJECTIVE, DISTANCE_PLANE or
+// DISTANCE_REFINED (see types.h).
+#include "shared/image.h"
+#include "shared/measurement.h"
+#ifndef FUSION_DISTANCE
+#define FUSION_DISTANCE DISTANCE_PLANE
+#endif
+#define GRADIENT_STEPS 2
+#define MAX_REFINED_RANGE 2.0f  // truncations along the ray; farther points stay projective
+
+// Points in frame D, one a lane.
+typedef struct {
+  vfloat x, y, z;
+} Points;
+
+typedef struct {
+  vfloat distance_m;
+  vfloat slope;  // by which the distance grows where the depth does
+} MeasuredDistance;
+
+#if FUSION_DISTANCE == DISTANCE_REFINED
+
+typedef struct {
+  vint known;
+  vfloat distance_m, nx, ny, nz;
+} TangentPlane;
+
+inline TangentPlane plane_at(vfloat u, vfloat v, Points p, __global const uint *measurements,
+                             __global const float *normals, int plane, const CameraArgs camera, float depth_step_m) {
+  const vint inside = (u >= 0.0f) & (v >= 0.0f) & (u < camera.width) & (v < camera.height);
+  const vint column = TO_VINT(u), row = TO_VINT(v);
+  const vint pixel = select((vint)(0), pixel_indices(column, row, camera), inside);
+  const vfloat depth = unpack_measurement(GATHER(vuint, measurements, pixel), depth_step_m).depth_m;
+  TangentPlane result;
+  result.nx = GATHER(vfloat, normals, pixel);
+  result.ny = GATHER(vfloat, (normals + plane), pixel);
+  result.nz = GATHER(vfloat, (normals + 2 * plane), pixel);
+  result.known = (depth > 0.0f) & (result.nz != 0.0f);
+  const vfloat from_x = p.x - (TO_VFLOAT(column) - camera.cx) / camera.fx * depth;
+  const vfloat from_y = p.y - (TO_VFLOAT(row) - camera.cy) / camera.fy * depth;
+  result.distance_m = result.nx * from_x + result.ny * from_y + result.nz * (p.z - depth);
+  return result;
+}
+
+// Steps from the point's own pixel along the normal to the pixel where the nearest point of the surface is seen.
+inline MeasuredDistance measured_distance(Points p, Measurement measured, float ray_length,
+                                          __global const uint *measurements, __global const float *normals, int plane,
+                                          const CameraArgs camera, float truncation_m,
+                                          float depth_step_m) {
+  const vfloat along_ray_m = (measured.depth_m - p.z) * ray_length;
+  const vint near = fabs(along_ray_m) < MAX_REFINED_RANGE * truncation_m;
+  MeasuredDistance result = {along_ray_m, 1.0f};
+  vfloat x = p.x, y = p.y, z = p.z;
+  for (int i = 0; i < GRADIENT_STEPS; ++i) {
+    TangentPlane tangent = plane_at(camera.fx * x / z + (camera.cx + 0.5f), camera.fy * y / z + (camera.cy + 0.5f),
+                                          p, measurements, normals, plane, camera, depth_step_m);
+    tangent.known = tangent.known & near;
+    result.distance_m = select(result.distance_m, tangent.distance_m, tangent.known);
+    result.slope = select(result.slope, measured.cosine, tangent.known);
+    x = select(x, p.x - tangent.distance_m * tangent.nx, tangent.known);
+    y = select(y, p.y - tangent.distance_m * tangent.ny, tangent.known);
+    z = select(z, p.z - tangent.distance_m * tangent.nz, tangent.known);
+  }
+  return result;
+}
+
+#else
+
+inline MeasuredDistance measured_distance(Points p, Measurement measured, float ray_length,
+                                          __global const uint *measurements, __global const float *normals, int plane,
+                                          const CameraArgs camera, float truncation_m,
+                                          float depth_step_m) {
+#if FUSION_DISTANCE == DISTANCE_PLANE
+  const vfloat slope = measured.cosine;
+#else
+  const vfloat slope = 1.0f;
+#endif
+  const vfloat along_ray_m = (measured.depth_m - p.z) * ray_length;
+  const MeasuredDistance result = {along_ray_m * slope, slope};
+  return result;
+}
+
+#endif
