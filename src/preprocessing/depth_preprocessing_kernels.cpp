@@ -53,7 +53,7 @@ void DepthPreprocessingKernels::packMeasurements(const DepthFrame& frame, const 
                                                  DeviceBuffer& measurements) {
   const DepthLevel& level = frame.levels[0];
   Kernel& pack = weights.bytes() == 0 ? pack_ : pack_weighted_;
-  pack.run2d(columns(level.camera), level.camera.height, level.depth, level.normals, weights, measurements,
+  pack.run2d(vectorsAcross(level.camera, simd_width_), level.camera.height, level.depth, level.normals, weights, measurements,
              toArgs(level.camera), static_cast<int>(planeElements(level.camera)), toArgs(level.sensor),
              frame.depth_step_m);
 }
