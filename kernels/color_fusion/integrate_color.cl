@@ -85,7 +85,8 @@ __kernel void integrate_color(__global uint *colors, __global const char *voxels
                               int visible_count, __global const int4 *block_indices,
                               __global const int *block_states, __global const uint *image,
                               __global const float *depth_C, CameraArgs camera, TransformArgs T_C_W, TransformArgs T_A_W,
-                              GridArgs grid, ColorFusionArgs args) {
+                              GridArgs grid, SensorArgs sensor,
+                              ColorFusionArgs args) {
   const int item = get_global_id(0);
   const int entry = item / ITEMS_PER_BLOCK;
   if (entry >= visible_count) return;
@@ -127,7 +128,7 @@ __kernel void integrate_color(__global uint *colors, __global const char *voxels
         select((vint)(0), pixel_indices(TO_VINT(seen.u + 0.5f), TO_VINT(seen.v + 0.5f), camera), used);
     const vfloat quality = TO_VFLOAT(AS_VINT(GATHER(vuint, image, nearest) >> 24));
     const vfloat measured_z = GATHER(vfloat, depth_C, nearest);
-    const vfloat tolerance = args.hidden_m + args.hidden_sigmas * sensor_sigma_m(seen.z);
+    const vfloat tolerance = args.hidden_m + args.hidden_sigmas * AXIAL_SIGMA_M(sensor, seen.z);
     used = used & ((measured_z == 0.0f) | (fabs(measured_z - seen.z) <= tolerance));
     const vuint old = VLOAD(block_color + first);
     const vfloat seen_weight = min(args.weight_at_1m * cosine * cosine / (seen.z * seen.z), MAX_FRAME_WEIGHT);

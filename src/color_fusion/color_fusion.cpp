@@ -10,6 +10,7 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/compute/device_image.h"
 #include "geometry/kernel_args.h"
+#include "preprocessing/sensor_args.h"
 
 namespace depth_fusion {
 namespace {
@@ -131,7 +132,7 @@ ColorFusionResult ColorFusion::integrate(const RgbdFrame& frame, const DepthFram
                                parameters_.max_weight,      0.5f * map_.parameters().truncation_m,
                                parameters_.hidden_sigmas,   frame_number_++};
     kernels_->integrateColor(map_, visible, visible_count, images_->pixels, *depth_C, images_->camera, T_C_W,
-                             result.T_C_W, args);
+                             result.T_C_W, toArgs(depth.levels[0].sensor), args);
     compute_.finish();
   }
   result.fused = true;

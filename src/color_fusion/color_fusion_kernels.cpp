@@ -53,10 +53,11 @@ void ColorFusion::Kernels::sampleSurface(const DepthLevel& depth, BlockSparseMap
 void ColorFusion::Kernels::integrateColor(BlockSparseMap& map, const DeviceBuffer& visible,
                                           size_t visible_count, const DeviceBuffer& image,
                                           const DeviceBuffer& depth_C, const CameraIntrinsics& color_camera,
-                                          const Pose& T_C_W, const Pose& T_A_W, const ColorFusionArgs& args) {
+                                          const Pose& T_C_W, const Pose& T_A_W, const SensorArgs& sensor,
+                                          const ColorFusionArgs& args) {
   integrate_.run(visible_count * items_per_block_, map.colors(), map.voxels(), visible,
                  static_cast<int>(visible_count), map.blockIndices(), map.blockStates(), image, depth_C,
-                 toArgs(color_camera), toArgs(T_C_W), toArgs(T_A_W), gridArgs(map), args);
+                 toArgs(color_camera), toArgs(T_C_W), toArgs(T_A_W), gridArgs(map), sensor, args);
 }
 
 }  // namespace depth_fusion

@@ -23,7 +23,7 @@ class ColorFusion::Kernels {
   void integrateColor(BlockSparseMap& map, const DeviceBuffer& visible, size_t visible_count,
                       const DeviceBuffer& image, const DeviceBuffer& depth_C,
                       const CameraIntrinsics& color_camera, const Pose& T_C_W, const Pose& T_A_W,
-                      const ColorFusionArgs& args);
+                      const SensorArgs& sensor, const ColorFusionArgs& args);
 
  private:
   int simd_width_;
