@@ -88,6 +88,7 @@ Outcome runVariant(ComputeContext& compute, const TrackingInput& input, const st
                    const Variant& variant, bool with_mesh) {
   PipelineParameters parameters = input.parameters;
   for (const auto& [name, value] : variant.parameters) setParameter(parameters.table(), name, value);
+  parameters.map.color = with_mesh;
   ReconstructionPipeline pipeline(compute, parameters, frames.front().intrinsics);
   Outcome outcome;
   Trajectory trajectory;
@@ -128,7 +129,7 @@ void drawMeshes(const std::string& path, const std::vector<Variant>& variants, c
   std::vector<cv::Mat> pictures;
   for (size_t i = 0; i < variants.size(); ++i) {
     pictures.push_back(renderMesh(outcomes[i].mesh, camera, T_W_C));
-    cv::putText(pictures[i], variants[i].name, {12, 28}, cv::FONT_HERSHEY_SIMPLEX, 0.8, {0, 0, 0}, 2, cv::LINE_AA);
+    cv::putText(pictures[i], variants[i].name, {12, 28}, cv::FONT_HERSHEY_SIMPLEX, 0.8, cv::Scalar::all(230.0), 2, cv::LINE_AA);
   }
   cv::Mat row;
   cv::hconcat(pictures, row);
