@@ -1,34 +1,22 @@
 // Fuses a colour image into the voxels of the visible blocks that lie near the surface: a weighted average, by viewing
 // angle, distance and quality of the pixel. A voxel takes the colour of the surface point next to it, which one Newton
 // step along the distance's gradient finds, so that it sees the same point from everywhere. Work-items as in
-// tsdf_fusion/integrate_blocks.cl.
+// shared/block_items.h.
 //   colors   of the pool (shared/color_map.h)
-//   voxels   distances and weights of the pool
+//   voxels   distances and certainties of the pool
 //   visible  slots of the blocks; those no longer in use are left out
 //   image    blue, green, red and quality a pixel (color_depth.cl)
 //   depth_C  metres, what the colour camera sees; other surfaces are hidden. 0 = not known
 //   T_C_W    of the colour camera as depth and calibration say, for depth_C and quality
 //   T_A_W    of the colour camera where its colours fit the map's, for the colours
+#include "shared/block_items.h"
 #include "shared/color_map.h"
 #include "shared/image.h"
 
-#if SIMD_WIDTH == 1
-#define ITEM_VOXELS 1
-#else
-#define ITEM_VOXELS (BLOCK_SIZE * BLOCK_SIZE)
-#endif
-#define ITEMS_PER_BLOCK (BLOCK_VOXELS / ITEM_VOXELS)
 #define BAND_VOX 1.5f         // half the thickness of the coloured layer
 #define LEAST_COSINE 0.1f     // of the viewing angle
 #define MOST_STRETCH 3.0f     // distances are measured along rays, which stretches them on slanting surfaces
 #define MAX_FRAME_WEIGHT 16.0f
-
-// As in integrate_blocks: spread so that rounding errors cancel over voxels and frames.
-inline uint dither_phase(int voxel, int3 block, int frame) {
-  uint hash = (uint)(block.x * 73856093 ^ block.y * 19349669 ^ block.z * 83492791);
-  hash = (hash ^ (hash >> 15)) * 0x85ebca6bu;
-  return hash + (uint)(voxel + frame) * 0x9e3779b9u;
-}
 
 // Slope of the distance along an axis, in steps a voxel, within the block: a central difference, or one-sided at the
 // block's border and beside unknown voxels. `place` is the voxels' coordinate along the axis.

@@ -5,25 +5,10 @@
 //   block_states  BLOCK_* bits a slot, 0 before
 //   measurements  a word a pixel, see types.h
 //   normals       three planes of `plane` elements, read by DISTANCE_REFINED only
-#include "shared/block_map.h"
+#include "shared/block_items.h"
 #include "shared/image.h"
 #include "tsdf_fusion/filter_rules.h"
 #include "tsdf_fusion/measured_distance.h"
-
-#if SIMD_WIDTH == 1
-#define ITEM_VOXELS 1
-#else
-#define ITEM_VOXELS (BLOCK_SIZE * BLOCK_SIZE)
-#endif
-#define ITEMS_PER_BLOCK (BLOCK_VOXELS / ITEM_VOXELS)
-
-// Phase of a voxel's dither: spread by a hash over the blocks, by the golden ratio along a block's voxels and over the
-// frames, so that the rounding errors of one voxel cancel over the frames faster than independent draws would.
-inline uint dither_phase(int voxel, int3 block, int frame) {
-  uint hash = (uint)(block.x * 73856093 ^ block.y * 19349669 ^ block.z * 83492791);
-  hash = (hash ^ (hash >> 15)) * 0x85ebca6bu;
-  return hash + (uint)(voxel + frame) * 0x9e3779b9u;
-}
 
 // Rounds up or down at random, so that the mean stays; truncation of a positive number rounds down.
 inline vint dithered(vfloat value, vfloat random) { return TO_VINT(value + (random + 512.0f)) - 512; }

@@ -75,8 +75,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
   const DepthFrame& depth = preprocess(frame);
   result.tracking = track(frame, depth, prior);
   if (result.tracking.status != TrackingStatus::kLost) fuse(frame, depth, result);
-  lost_ = result.tracking.status == TrackingStatus::kLost;
-  if (lost_) {
+  if (result.tracking.status == TrackingStatus::kLost) {
     tracked_.reset();
     return result;
   }
@@ -121,7 +120,7 @@ TrackingResult ReconstructionPipeline::track(const RgbdFrame& frame, const Depth
                                              const MotionPrior& prior) {
   if (view_ == nullptr) return begin(frame);
   TrackingResult result;
-  if (!lost_) result = tracker_.track(depth, *view_, prior, timers_);
+  if (tracked_) result = tracker_.track(depth, *view_, prior, timers_);
   return result.status == TrackingStatus::kLost ? relocalise(depth, prior, result) : result;
 }
 
@@ -135,7 +134,7 @@ TrackingResult ReconstructionPipeline::relocalise(const DepthFrame& depth, const
     const TrackingResult result = trackFrom(motion.priorFrom(keyframe->T_W_D), depth);
     if (result.status != TrackingStatus::kLost) return result;
   }
-  return lost_ ? trackFrom(prior, depth) : lost;
+  return tracked_ ? lost : trackFrom(prior, depth);
 }
 
 TrackingResult ReconstructionPipeline::trackFrom(const MotionPrior& prior, const DepthFrame& depth) {

@@ -83,7 +83,6 @@ class ReconstructionPipeline {
   Pose T_W_expected_ = Pose::Identity();  // the frame before: as tracked last, then as the texture moved on from there
   double stamp_s_ = 0.0;                  // of the frame before
   Vector6d velocity_ = Vector6d::Zero();  // of D in D, per second
-  bool lost_ = false;                     // the frame before
 };
 
 }  // namespace depth_fusion
