@@ -12,6 +12,7 @@
 #endif
 
 #include <map>
+#include <mutex>
 #include <string>
 
 #include "depth_fusion/compute/compute_context.h"
@@ -26,8 +27,9 @@ struct ComputeContext::Impl {
   std::string report;
   int simd_width = 1;                          // pixels or voxels a work-item handles at a time
   std::map<std::string, cl::Program> programs;  // by file and options
+  std::mutex programs_mutex;
 
-  // Builds the program once. file: path below kernels/. Throws Error with the build log.
+  // Builds the program once; any thread may ask. file: path below kernels/. Throws Error with the build log.
   const cl::Program& program(const std::string& file, const std::string& options);
 };
 

@@ -33,6 +33,7 @@ const cl::Program& ComputeContext::Impl::program(const std::string& file, const 
   const std::string all_options =
       "-cl-std=CL1.2 -cl-mad-enable -cl-no-signed-zeros -DSIMD_WIDTH=" + std::to_string(simd_width) + " " + options;
   const std::string key = file + " " + all_options;
+  const std::lock_guard<std::mutex> lock(programs_mutex);
   const auto known = programs.find(key);
   if (known != programs.end()) return known->second;
 
