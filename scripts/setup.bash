@@ -16,7 +16,7 @@ ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 DEBIAN_PACKAGES=(
   catkin catkin-lint libgtest-dev
   libroscpp-core-dev librosbag-storage-dev libsensor-msgs-dev libtf2-msgs-dev
-  libeigen3-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev
+  libeigen3-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev
   ocl-icd-opencl-dev opencl-headers
 )
 
