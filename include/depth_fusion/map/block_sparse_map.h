@@ -71,6 +71,9 @@ class BlockSparseMap {
     int slot;
   };
   std::vector<Block> blocks() const;
+  // Of a slot below slotBound(): whether it is in use, and the block that it holds or held last.
+  bool inUse(int slot) const { return slot_in_use_[slot]; }
+  const BlockIndex& blockOf(int slot) const { return slot_blocks_[slot]; }
 
   // First block of the window.
   const BlockIndex& origin() const { return origin_; }
