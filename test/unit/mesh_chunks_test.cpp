@@ -104,11 +104,11 @@ class ChangingMap {
         first_(Eigen::Vector3i::Constant(-24 / parameters.block_size)),
         count_(48 / parameters.block_size) {}
 
-  // Returns the slots of the blocks that this changes, creates or releases, and of no others.
-  std::vector<int> show(const SignedDistance& distance) {
+  // Tells of the blocks that this releases, changes or creates, and of no others.
+  void show(const SignedDistance& distance, MeshChunks& chunks) {
     const MapContent before = readMap(map);
-    std::vector<int> slots =
-        release([&](const BlockSparseMap::BlockIndex& block) { return isEmpty(distance, block); });
+    chunks.noteUpdated(
+        release([&](const BlockSparseMap::BlockIndex& block) { return isEmpty(distance, block); }));
     BlockSparseMap scratch(compute(), map.parameters());
     fillMap(scratch, distance, first_, count_);
     std::vector<BlockSparseMap::BlockIndex> created;
@@ -117,14 +117,15 @@ class ChangingMap {
       if (before.count(entry.first) == 0) created.push_back(indexOf(entry.first));
     }
     map.allocate(created);
+    std::vector<int> changed;
     for (const BlockSparseMap::Block& block : map.blocks()) {
       const BlockContent& content = after.at(keyOf(block.index));
       const auto old = before.find(keyOf(block.index));
       if (old != before.end() && old->second == content) continue;
       write(block.slot, content);
-      slots.push_back(block.slot);
+      changed.push_back(block.slot);
     }
-    return slots;
+    chunks.noteUpdated(changed);
   }
 
   BlockSparseMap map;
@@ -190,7 +191,7 @@ TEST_P(MeshChunksOfSize, areTheWholeSurfaceAfterEveryChange) {
        {sphere({0.001, 0.0, 0.0}, 0.07), sphere({0.004, 0.001, -0.002}, 0.0702),
         sphere({0.02, -0.03, 0.01}, 0.05), sphere({-0.05, -0.05, -0.05}, 0.03), nothing(),
         sphere({0.03, 0.03, 0.03}, 0.04)}) {
-    chunks.noteUpdated(scene.show(surface));
+    scene.show(surface, chunks);
     viewer.follow(chunks);
     viewer.expectTheWholeSurface(scene.map);
   }
@@ -203,7 +204,7 @@ TEST_F(MeshChunksTest, smallBatchesGiveTheSame) {
   small.max_batch_blocks = 9;
   MeshChunks chunks(compute(), scene.map, small, 8);
   Viewer viewer;
-  chunks.noteUpdated(scene.show(sphere({0.001, 0.0, 0.0}, 0.07)));
+  scene.show(sphere({0.001, 0.0, 0.0}, 0.07), chunks);
   viewer.follow(chunks);
   viewer.expectTheWholeSurface(scene.map);
 }
@@ -212,11 +213,11 @@ TEST_F(MeshChunksTest, surfaceThatIsGoneIsReportedOnce) {
   ChangingMap scene(parameters(8));
   MeshChunks chunks(compute(), scene.map, {}, 2);
   Viewer viewer;
-  chunks.noteUpdated(scene.show(sphere({0.0, 0.0, 0.0}, 0.07)));
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), chunks);
   viewer.follow(chunks);
   const ChunkIndices shown = viewer.shown();
   EXPECT_GT(shown.size(), 7u);
-  chunks.noteUpdated(scene.show(nothing()));
+  scene.show(nothing(), chunks);
   EXPECT_EQ(viewer.follow(chunks), shown);
   EXPECT_TRUE(viewer.shown().empty());
   EXPECT_TRUE(viewer.follow(chunks).empty());
@@ -228,10 +229,10 @@ TEST_F(MeshChunksTest, onlyThoseThatChangedAreReported) {
   Viewer viewer;
   const SignedDistance ball = sphere({0.0, 0.0, 0.0}, 0.07);
   const SignedDistance wart = sphere({0.07, 0.02, 0.02}, 0.006);
-  chunks.noteUpdated(scene.show(ball));
+  scene.show(ball, chunks);
   EXPECT_GT(viewer.follow(chunks).size(), 7u);
   EXPECT_TRUE(viewer.follow(chunks).empty());
-  chunks.noteUpdated(scene.show([&](const Eigen::Vector3d& p) { return std::min(ball(p), wart(p)); }));
+  scene.show([&](const Eigen::Vector3d& p) { return std::min(ball(p), wart(p)); }, chunks);
   // Blocks of 4 cm: the wart's truncation band lies in x from 4 to 12 cm, and in y and z from -4 to 4 cm.
   for (const MeshChunkIndex& index : viewer.follow(chunks)) {
     EXPECT_TRUE(index[0] == 0 || index[0] == 1) << index[0];
@@ -245,7 +246,7 @@ TEST_F(MeshChunksTest, oldestChangeComesFirst) {
   ChangingMap scene(parameters(8));
   MeshChunks chunks(compute(), scene.map, {}, 2);
   Viewer viewer;
-  chunks.noteUpdated(scene.show(sphere({-0.08, -0.08, -0.08}, 0.03)));
+  scene.show(sphere({-0.08, -0.08, -0.08}, 0.03), chunks);
   const size_t first = chunks.changedCount();
   const ChunkIndices near_first = [&] {
     MeshChunks others(compute(), scene.map, {}, 2);
@@ -255,7 +256,7 @@ TEST_F(MeshChunksTest, oldestChangeComesFirst) {
   const SignedDistance both = [](const Eigen::Vector3d& p) {
     return std::min(sphere({-0.08, -0.08, -0.08}, 0.03)(p), sphere({0.08, 0.08, 0.08}, 0.03)(p));
   };
-  chunks.noteUpdated(scene.show(both));
+  scene.show(both, chunks);
   EXPECT_EQ(viewer.follow(chunks, first), near_first);
   EXPECT_FALSE(near_first.empty());
   while (chunks.changedCount() > 0) {
@@ -269,7 +270,7 @@ TEST_F(MeshChunksTest, oldestChangeComesFirst) {
 TEST_F(MeshChunksTest, allAreReportedAgainToALateReader) {
   ChangingMap scene(parameters(8));
   MeshChunks chunks(compute(), scene.map, {}, 2);
-  chunks.noteUpdated(scene.show(sphere({0.0, 0.0, 0.0}, 0.07)));
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), chunks);
   chunks.takeChanged(1000);
   chunks.noteAll();
   Viewer late;
@@ -281,14 +282,14 @@ TEST_F(MeshChunksTest, resetForgetsThem) {
   ChangingMap scene(parameters(8));
   MeshChunks chunks(compute(), scene.map, {}, 2);
   Viewer viewer;
-  chunks.noteUpdated(scene.show(sphere({0.0, 0.0, 0.0}, 0.07)));
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), chunks);
   viewer.follow(chunks, 3);
   scene.map.reset({0.0, 0.0, 0.0});
   chunks.noteReset();
   EXPECT_EQ(chunks.changedCount(), 0u);
   EXPECT_TRUE(chunks.takeChanged(1000).empty());
   Viewer fresh;
-  chunks.noteUpdated(scene.show(sphere({0.03, 0.03, 0.03}, 0.04)));
+  scene.show(sphere({0.03, 0.03, 0.03}, 0.04), chunks);
   fresh.follow(chunks);
   fresh.expectTheWholeSurface(scene.map);
 }
