@@ -15,7 +15,12 @@ ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 # Debian carries ROS 1 itself, under its own names.
 DEBIAN_PACKAGES=(
   catkin catkin-lint libgtest-dev
-  libroscpp-core-dev librosbag-storage-dev libsensor-msgs-dev libtf2-msgs-dev
+  ros-message-generation ros-message-runtime ros-std-msgs
+  libroscpp-dev libroscpp-core-dev  libnodelet-dev libnodeletlib-dev libnodeletlib-tools libdiagnostic-updater-dev
+  librosbag-storage-dev libtf2-ros-dev libtf2-msgs-dev
+  libstd-msgs-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libvisualization-msgs-dev libdiagnostic-msgs-dev
+  libstd-srvs-dev libros-rosgraph-msgs-dev
+  librostest-dev python3-rostest python3-roslaunch python3-rosbag python3-rosservice python3-rostopic rosbash rosout rospack-tools
   libeigen3-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev
   ocl-icd-opencl-dev opencl-headers
 )

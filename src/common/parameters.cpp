@@ -56,7 +56,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 void checkChoice(const Parameter& parameter, const std::string& value) {
   const auto& choices = parameter.choices;
-  check(std::find(choices.begin(), choices.end(), value) != choices.end(),
+  check(choices.empty() || std::find(choices.begin(), choices.end(), value) != choices.end(),
         "parameter '" + parameter.name + "' is '" + value + "'; it must be one of " + joined(choices));
 }
 
@@ -138,7 +138,7 @@ std::string valueText(const Parameter& parameter) {
 
 std::string rangeText(const Parameter& parameter) {
   if (std::holds_alternative<bool*>(parameter.value)) return "true, false";
-  if (std::holds_alternative<std::string*>(parameter.value)) return joined(parameter.choices);
+  if (std::holds_alternative<std::string*>(parameter.value)) return parameter.choices.empty() ? "text" : joined(parameter.choices);
   std::ostringstream text;
   text << "[" << parameter.minimum << ", " << parameter.maximum << "]";
   return text.str();

@@ -29,7 +29,7 @@ struct ComputeContext::Impl {
   std::map<std::string, cl::Program> programs;  // by file and options
   std::mutex programs_mutex;
 
-  // Builds the program once; any thread may ask. file: path below kernels/. Throws Error with the build log.
+  // Builds the program once, for any thread. file: path below kernels/. Throws Error with the build log.
   const cl::Program& program(const std::string& file, const std::string& options);
 };
 

@@ -19,67 +19,73 @@ size_t rangeTiles(const CameraIntrinsics& camera, int tile) {
   return static_cast<size_t>((camera.width + tile - 1) / tile) * ((camera.height + tile - 1) / tile);
 }
 
+std::shared_ptr<ModelView> makeView(ComputeContext& compute, const CameraIntrinsics& camera) {
+  auto view = std::make_shared<ModelView>();
+  view->camera = camera;
+  view->depth = zeroImage(compute, camera, 1);
+  view->normals = zeroImage(compute, camera, 3);
+  return view;
+}
+
 }  // namespace
 
 ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map,
                                      const CameraIntrinsics& camera)
     : compute_(compute),
       map_(map),
+      views_([&compute, camera] { return makeView(compute, camera); }),
       nearest_(compute, rangeTiles(camera, RANGE_TILE) * sizeof(float), "ray ranges"),
       farthest_(compute, rangeTiles(camera, RANGE_TILE) * sizeof(float), "ray ranges"),
       coarse_(zeroImage(compute, camera, 1)),
-      kernels_(std::make_unique<Kernels>(compute, map.parameters())) {
-  view_.camera = camera;
-  view_.depth = zeroImage(compute, camera, 1);
-  view_.normals = zeroImage(compute, camera, 3);
-}
+      kernels_(std::make_unique<Kernels>(compute, map.parameters())) {}
 
 ModelViewRenderer::~ModelViewRenderer() = default;
 
 const ModelView& ModelViewRenderer::render(const Pose& T_W_D, float min_range_m, float max_range_m,
                                            StageTimers& timers) {
-  view_.T_W_D = T_W_D;
+  ModelView& view = *views_.next();
+  view.T_W_D = T_W_D;
   {
     const StageTimers::Scope timer(timers, "model_view/ranges");
     nearest_.fill(kFarFloatBits, nearest_.bytes());
     farthest_.fill(0, farthest_.bytes());
-    kernels_->splatBlockRanges(map_, nearest_, farthest_, view_, min_range_m, max_range_m);
+    kernels_->splatBlockRanges(map_, nearest_, farthest_, view, min_range_m, max_range_m);
     compute_.finish();
   }
   {
     const StageTimers::Scope timer(timers, "model_view/coarse");
-    kernels_->raycastCoarse(map_, nearest_, farthest_, coarse_, view_);
+    kernels_->raycastCoarse(map_, nearest_, farthest_, coarse_, view);
     compute_.finish();
   }
   {
     const StageTimers::Scope timer(timers, "model_view/fine");
-    kernels_->raycastFine(map_, coarse_, view_);
+    kernels_->raycastFine(map_, coarse_, view);
     compute_.finish();
   }
-  return view_;
+  return view;
 }
 
 cv::Mat ModelViewRenderer::shadedPicture() {
   allocatePicture();
-  kernels_->shadeView(view_, picture_);
+  kernels_->shadeView(*view(), picture_);
   return readPicture();
 }
 
 cv::Mat ModelViewRenderer::coloredPicture() {
   check(map_.parameters().color, "a map without colour has no coloured view; set map/color");
   allocatePicture();
-  kernels_->colorView(map_, view_, picture_);
+  kernels_->colorView(map_, *view(), picture_);
   return readPicture();
 }
 
 void ModelViewRenderer::allocatePicture() {
   if (picture_.bytes() == 0)
-    picture_ = DeviceBuffer(compute_, kPictureBytes * pixelsOf(view_.camera), "a picture");
+    picture_ = DeviceBuffer(compute_, kPictureBytes * pixelsOf(view()->camera), "a picture");
 }
 
 cv::Mat ModelViewRenderer::readPicture() const {
-  cv::Mat picture(view_.camera.height, view_.camera.width, CV_8UC4), bgr;
-  picture_.read(picture.data, kPictureBytes * pixelsOf(view_.camera));
+  cv::Mat picture(view()->camera.height, view()->camera.width, CV_8UC4), bgr;
+  picture_.read(picture.data, kPictureBytes * pixelsOf(view()->camera));
   cv::cvtColor(picture, bgr, cv::COLOR_BGRA2BGR);
   return bgr;
 }

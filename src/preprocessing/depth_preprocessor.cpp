@@ -22,6 +22,37 @@ SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParam
   return motion;
 }
 
+// With the range that the sensor's noise allows.
+PreprocessingParameters checked(PreprocessingParameters parameters, const CameraIntrinsics& camera,
+                                const DepthSensorParameters& sensor) {
+  validate(parameters.table());
+  validate(DepthSensorParameters(sensor).table());
+  parameters.max_range_m = std::min(parameters.max_range_m, sensor.maxRange_m());
+  check(parameters.min_range_m < parameters.max_range_m,
+        "preprocessing/min_range_m must be below preprocessing/max_range_m and the range of "
+        "depth_sensor/max_sigma_m");
+  check(camera.valid(),
+        "the depth camera's intrinsics are not valid; give them with --intrinsics fx,fy,cx,cy");
+  check(std::min(camera.width, camera.height) >> (DepthPreprocessor::kLevels - 1) > 2,
+        "depth images of " + sizeText(camera.width, camera.height) + " are too small");
+  return parameters;
+}
+
+std::shared_ptr<DepthFrame> makeResult(ComputeContext& compute, const PreprocessingParameters& parameters,
+                                       CameraIntrinsics camera, const DepthSensorParameters& sensor) {
+  auto result = std::make_shared<DepthFrame>();
+  result->raw_depth = zeroImage(compute, camera, 1);
+  result->measurements = zeroImage(compute, camera, 1);
+  result->depth_step_m = parameters.max_range_m / MEASUREMENT_DEPTH_MAX;
+  result->max_tiles =
+      DeviceBuffer(compute, sizeof(float) * tiles(camera.width) * tiles(camera.height), "depth tiles");
+  for (int level = 0; level < DepthPreprocessor::kLevels; ++level) {
+    result->levels.push_back({camera, zeroImage(compute, camera, 1), zeroImage(compute, camera, 3), sensor});
+    camera = halved(camera);
+  }
+  return result;
+}
+
 }  // namespace
 
 ParameterTable PreprocessingParameters::table() {
@@ -45,37 +76,22 @@ struct DepthPreprocessor::Kernels : DepthPreprocessingKernels {
 
 DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const PreprocessingParameters& parameters,
                                      const CameraIntrinsics& camera, const DepthSensorParameters& sensor)
-    : compute_(compute), parameters_(parameters), kernels_(std::make_unique<Kernels>(compute)) {
-  validate(parameters_.table());
-  validate(DepthSensorParameters(sensor).table());
-  parameters_.max_range_m = std::min(parameters_.max_range_m, sensor.maxRange_m());
-  check(parameters_.min_range_m < parameters_.max_range_m,
-        "preprocessing/min_range_m must be below preprocessing/max_range_m and the range of "
-        "depth_sensor/max_sigma_m");
-  check(camera.valid(),
-        "the depth camera's intrinsics are not valid; give them with --intrinsics fx,fy,cx,cy");
+    : compute_(compute),
+      parameters_(checked(parameters, camera, sensor)),
+      results_([&compute, parameters = parameters_, camera, sensor] {
+        return makeResult(compute, parameters, camera, sensor);
+      }),
+      kernels_(std::make_unique<Kernels>(compute)) {
   const size_t pixels = static_cast<size_t>(camera.width) * camera.height;
   input_ = DeviceBuffer(compute, (pixels + 16) * sizeof(float), "the depth image");
   skewed_depth_ = zeroImage(compute, camera, 1);
-  result_.raw_depth = zeroImage(compute, camera, 1);
-  result_.measurements = zeroImage(compute, camera, 1);
-  result_.depth_step_m = parameters_.max_range_m / MEASUREMENT_DEPTH_MAX;
-  result_.max_tiles =
-      DeviceBuffer(compute, sizeof(float) * tiles(camera.width) * tiles(camera.height), "depth tiles");
-  CameraIntrinsics level_camera = camera;
-  for (int level = 0; level < kLevels; ++level) {
-    check(level_camera.width > 2 && level_camera.height > 2,
-          "depth images of " + sizeText(camera.width, camera.height) + " are too small");
-    result_.levels.push_back(
-        {level_camera, zeroImage(compute, level_camera, 1), zeroImage(compute, level_camera, 3), sensor});
-    level_camera = halved(level_camera);
-  }
 }
 
 DepthPreprocessor::~DepthPreprocessor() = default;
 
 const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vector6d& velocity) {
-  const CameraIntrinsics& camera = result_.levels[0].camera;
+  DepthFrame& result = *results_.next();
+  const CameraIntrinsics& camera = result.levels[0].camera;
   const bool is_u16 = frame.depth.type() == CV_16UC1;
   check(is_u16 || frame.depth.type() == CV_32FC1, "depth images must hold 16-bit integers or 32-bit floats");
   check(frame.depth.cols == camera.width && frame.depth.rows == camera.height,
@@ -90,28 +106,28 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
 
   const bool compensates = !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);
   kernels_->depthToMetres(
-      is_u16, input_, compensates ? skewed_depth_ : result_.raw_depth, camera,
+      is_u16, input_, compensates ? skewed_depth_ : result.raw_depth, camera,
       {static_cast<float>(frame.depth_unit_m), parameters_.min_range_m, parameters_.max_range_m});
   if (compensates) {
-    kernels_->compensateMotion(skewed_depth_, result_.raw_depth, camera, sensorMotion(velocity, parameters_));
+    kernels_->compensateMotion(skewed_depth_, result.raw_depth, camera, sensorMotion(velocity, parameters_));
   }
-  kernels_->maxTiles(result_.raw_depth, result_.max_tiles, camera);
-  kernels_->filterBilateral(result_.raw_depth, result_.levels[0].depth, camera,
-                            toArgs(result_.levels[0].sensor), bilateral);
+  kernels_->maxTiles(result.raw_depth, result.max_tiles, camera);
+  kernels_->filterBilateral(result.raw_depth, result.levels[0].depth, camera,
+                            toArgs(result.levels[0].sensor), bilateral);
   for (int i = 0; i < kLevels; ++i) {
-    DepthLevel& level = result_.levels[i];
-    if (i > 0) kernels_->halveDepth(result_.levels[i - 1], level, parameters_.bilateral_cutoff_sigmas);
+    DepthLevel& level = result.levels[i];
+    if (i > 0) kernels_->halveDepth(result.levels[i - 1], level, parameters_.bilateral_cutoff_sigmas);
     kernels_->computeNormals(level.depth, level.normals, level.camera, parameters_.max_relative_step);
   }
   uploadWeights(frame.weights);
   const DeviceBuffer none;
-  kernels_->packMeasurements(result_, frame.weights.empty() ? none : weights_, result_.measurements);
-  return result_;
+  kernels_->packMeasurements(result, frame.weights.empty() ? none : weights_, result.measurements);
+  return result;
 }
 
 void DepthPreprocessor::uploadWeights(const cv::Mat& weights) {
   if (weights.empty()) return;
-  const CameraIntrinsics& camera = result_.levels[0].camera;
+  const CameraIntrinsics& camera = results_.current()->levels[0].camera;
   check(weights.type() == CV_32FC1, "the weights of depth pixels must be 32-bit floats");
   check(weights.cols == camera.width && weights.rows == camera.height,
         "a map of weights is " + sizeText(weights.cols, weights.rows) + ", its depth image " +

@@ -19,12 +19,13 @@ BagImage readImage(const rosbag::MessageInstance& place, const rosbag::Bag& bag)
 }
 
 DepthImage toDepth(const BagImage& image) {
-  return image.raw ? depthFromImage(*image.raw, image.name)
-                   : depthFromCompressed(*image.compressed, image.name);
+  if (!image.raw) return depthFromCompressed(*image.compressed, image.name);
+  const DepthImage depth = depthFromImage(*image.raw, image.name);
+  return {depth.image.clone(), depth.unit_m};
 }
 
 cv::Mat toColor(const BagImage& image) {
-  return image.raw ? colorFromImage(*image.raw, image.name)
+  return image.raw ? colorFromImage(*image.raw, image.name).clone()
                    : colorFromCompressed(*image.compressed, image.name);
 }
 

@@ -89,17 +89,10 @@ class SourceFinder {
                 listTopics(topics_) + "; give the intrinsics with --intrinsics");
   }
 
-  // A rectified image (image_rect) has the projection P, another one the camera matrix K and its distortion.
   RecordingIntrinsics fromInfo(const sensor_msgs::CameraInfo& info, const std::string& topic,
                                const std::string& depth_topic) {
-    const bool is_rectified = depth_topic.find("rect") != std::string::npos && info.P[0] > 0.0;
-    const bool is_distorted =
-        std::any_of(info.D.begin(), info.D.end(), [](double coefficient) { return coefficient != 0.0; });
-    if (is_distorted && !is_rectified) remark_ += "; the distortion that " + topic + " names is ignored";
-    const int width = static_cast<int>(info.width);
-    const int height = static_cast<int>(info.height);
-    if (is_rectified) return {{width, height, info.P[0], info.P[5], info.P[2], info.P[6]}, "from " + topic};
-    return {{width, height, info.K[0], info.K[4], info.K[2], info.K[5]}, "from " + topic};
+    if (ignoresDistortion(info, depth_topic)) remark_ += "; the distortion that " + topic + " names is ignored";
+    return {cameraFromInfo(info, depth_topic), "from " + topic};
   }
 
   const rosbag::Bag& bag_;

@@ -1,15 +1,12 @@
-#include <geometry_msgs/TransformStamped.h>
 #include <rosbag/bag.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
 #include <sensor_msgs/image_encodings.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "depth_fusion/common/error.h"
 #include "recording/depth_units.h"
+#include "ros/messages.h"
 #include "ros/recording.h"
 
 namespace depth_fusion {
@@ -21,62 +18,9 @@ constexpr char kCameraFrame[] = "camera_rgb_optical_frame";
 constexpr char kWorldFrame[] = "world";
 constexpr double kMillimetre_m = 0.001;
 
-// ROS reads a stamp of zero as "no time".
-ros::Time toRosTime(double stamp_s) {
-  constexpr double kEndOfTime_s = 4294967296.0;
-  check(stamp_s >= 0.0 && stamp_s < kEndOfTime_s,
-        "a bag holds stamps from 0 to 2^32 s; this frame's is " + std::to_string(stamp_s));
-  return std::max(ros::Time(stamp_s), ros::TIME_MIN);
-}
-
-std_msgs::Header makeHeader(const ros::Time& stamp, const std::string& frame_id) {
-  std_msgs::Header header;
-  header.stamp = stamp;
-  header.frame_id = frame_id;
-  return header;
-}
-
-sensor_msgs::Image makeImage(const std_msgs::Header& header, const cv::Mat& pixels,
-                             const std::string& encoding) {
-  sensor_msgs::Image image;
-  image.header = header;
-  image.width = static_cast<uint32_t>(pixels.cols);
-  image.height = static_cast<uint32_t>(pixels.rows);
-  image.encoding = encoding;
-  image.step = static_cast<uint32_t>(pixels.cols * pixels.elemSize());
-  for (int row = 0; row < pixels.rows; ++row) {
-    image.data.insert(image.data.end(), pixels.ptr(row), pixels.ptr(row) + image.step);
-  }
-  return image;
-}
-
-sensor_msgs::CameraInfo makeCameraInfo(const std_msgs::Header& header, const CameraIntrinsics& camera) {
-  sensor_msgs::CameraInfo info;
-  info.header = header;
-  info.width = static_cast<uint32_t>(camera.width);
-  info.height = static_cast<uint32_t>(camera.height);
-  info.distortion_model = "plumb_bob";
-  info.D.assign(5, 0.0);
-  info.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return info;
-}
-
-tf2_msgs::TFMessage makeTransform(const ros::Time& stamp, const Pose& T_W_D) {
-  const Eigen::Quaterniond rotation(T_W_D.linear());
-  geometry_msgs::TransformStamped transform;
-  transform.header = makeHeader(stamp, kWorldFrame);
-  transform.child_frame_id = kCameraFrame;
-  transform.transform.translation.x = T_W_D.translation().x();
-  transform.transform.translation.y = T_W_D.translation().y();
-  transform.transform.translation.z = T_W_D.translation().z();
-  transform.transform.rotation.x = rotation.x();
-  transform.transform.rotation.y = rotation.y();
-  transform.transform.rotation.z = rotation.z();
-  transform.transform.rotation.w = rotation.w();
+tf2_msgs::TFMessage cameraTransform(const std_msgs::Header& header, const Pose& T_W_D) {
   tf2_msgs::TFMessage message;
-  message.transforms.push_back(transform);
+  message.transforms.push_back(makeTransform(makeHeader(header.stamp, kWorldFrame), header.frame_id, T_W_D));
   return message;
 }
 
@@ -100,9 +44,9 @@ class BagWriter : public RecordingWriter {
     const cv::Mat depth = convertDepthUnit(frame.depth, frame.depth_unit_m, kMillimetre_m);
     const sensor_msgs::CameraInfo info = makeCameraInfo(header, frame.intrinsics);
     orError([&] {
-      if (frame.T_W_D) bag_->write("/tf", header.stamp, makeTransform(header.stamp, *frame.T_W_D));
+      if (frame.T_W_D) bag_->write("/tf", header.stamp, cameraTransform(header, *frame.T_W_D));
       writeImage(kDepthNamespace, info, makeImage(header, depth, sensor_msgs::image_encodings::TYPE_16UC1));
-      if (!frame.color.empty()) writeImage(kColorNamespace, info, makeColor(header, frame.color));
+      if (!frame.color.empty()) writeImage(kColorNamespace, info, makeColorImage(header, frame.color));
     });
   }
 
@@ -113,14 +57,6 @@ class BagWriter : public RecordingWriter {
   }
 
  private:
-  static sensor_msgs::Image makeColor(const std_msgs::Header& header, const cv::Mat& color) {
-    const bool is_gray = color.type() == CV_8UC1;
-    check(is_gray || color.type() == CV_8UC3,
-          "a recording is written from colour of type CV_8UC3 or CV_8UC1");
-    return makeImage(header, color,
-                     is_gray ? sensor_msgs::image_encodings::MONO8 : sensor_msgs::image_encodings::BGR8);
-  }
-
   void writeImage(const std::string& topic_namespace, const sensor_msgs::CameraInfo& info,
                   const sensor_msgs::Image& image) {
     bag_->write(topic_namespace + "camera_info", info.header.stamp, info);

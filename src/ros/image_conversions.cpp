@@ -47,7 +47,8 @@ void swapBytes(cv::Mat& image) {
   }
 }
 
-cv::Mat copyPixels(const sensor_msgs::Image& message, int type, const std::string& topic) {
+// The message's own memory, where its byte order is the host's.
+cv::Mat pixelsOf(const sensor_msgs::Image& message, int type, const std::string& topic) {
   check(message.width > 0 && message.height > 0, topic + ": the image is empty");
   const size_t row_size = size_t{message.width} * CV_ELEM_SIZE(type);
   const size_t needed = size_t{message.step} * (message.height - 1) + row_size;
@@ -55,12 +56,12 @@ cv::Mat copyPixels(const sensor_msgs::Image& message, int type, const std::strin
         topic + ": the image holds " + std::to_string(message.data.size()) + " bytes with a step of " +
             std::to_string(message.step) + ", too few for " + std::to_string(message.width) + "x" +
             std::to_string(message.height) + " " + message.encoding);
-  cv::Mat image(static_cast<int>(message.height), static_cast<int>(message.width), type);
-  for (int row = 0; row < image.rows; ++row) {
-    std::memcpy(image.ptr(row), message.data.data() + size_t{message.step} * row, row_size);
-  }
-  if (image.elemSize1() > 1 && (message.is_bigendian != 0) != hostIsBigEndian()) swapBytes(image);
-  return image;
+  const cv::Mat image(static_cast<int>(message.height), static_cast<int>(message.width), type,
+                      const_cast<unsigned char*>(message.data.data()), message.step);
+  if (image.elemSize1() == 1 || (message.is_bigendian != 0) == hostIsBigEndian()) return image;
+  cv::Mat swapped = image.clone();
+  swapBytes(swapped);
+  return swapped;
 }
 
 // Too near, too far and unknown have numbers of their own in ROS (REP 118).
@@ -94,13 +95,17 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+bool isRectified(const sensor_msgs::CameraInfo& info, const std::string& image_topic) {
+  return contains(image_topic, "rect") && info.P[0] > 0.0;
+}
+
 }  // namespace
 
 DepthImage depthFromImage(const sensor_msgs::Image& message, const std::string& topic) {
-  if (message.encoding == "32FC1") return {withoutInvalid(copyPixels(message, CV_32FC1, topic)), 1.0};
+  if (message.encoding == "32FC1") return {withoutInvalid(pixelsOf(message, CV_32FC1, topic).clone()), 1.0};
   check(message.encoding == "16UC1" || message.encoding == "mono16",
         topic + ": encoding '" + message.encoding + "' is no depth; 16UC1, mono16 and 32FC1 are accepted");
-  return {copyPixels(message, CV_16UC1, topic), kMillimetre_m};
+  return {pixelsOf(message, CV_16UC1, topic), kMillimetre_m};
 }
 
 DepthImage depthFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic) {
@@ -130,11 +135,24 @@ cv::Mat colorFromImage(const sensor_msgs::Image& message, const std::string& top
   check(encoding != std::end(kColorEncodings),
         topic + ": encoding '" + message.encoding +
             "' is not accepted for colour; rgb8, bgr8, rgba8, bgra8 and mono8 are");
-  cv::Mat image = copyPixels(message, encoding->type, topic);
+  cv::Mat image = pixelsOf(message, encoding->type, topic);
   if (encoding->conversion == kAsItIs) return image;
   cv::Mat converted;
   cv::cvtColor(image, converted, encoding->conversion);
   return converted;
+}
+
+CameraIntrinsics cameraFromInfo(const sensor_msgs::CameraInfo& info, const std::string& image_topic) {
+  const int width = static_cast<int>(info.width);
+  const int height = static_cast<int>(info.height);
+  if (isRectified(info, image_topic)) return {width, height, info.P[0], info.P[5], info.P[2], info.P[6]};
+  return {width, height, info.K[0], info.K[4], info.K[2], info.K[5]};
+}
+
+bool ignoresDistortion(const sensor_msgs::CameraInfo& info, const std::string& image_topic) {
+  const bool is_distorted =
+      std::any_of(info.D.begin(), info.D.end(), [](double coefficient) { return coefficient != 0.0; });
+  return is_distorted && !isRectified(info, image_topic);
 }
 
 cv::Mat colorFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic) {

@@ -1,11 +1,15 @@
-// sensor_msgs images as the core takes them. `topic` begins the message of every Error.
+// sensor_msgs images as the core takes them. `topic` begins the message of every Error. Images from raw messages may use the
+// message's memory: they are valid as long as it is, and not to be changed.
 #pragma once
 
+#include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
 #include <opencv2/core.hpp>
 #include <string>
+
+#include "depth_fusion/geometry/camera_intrinsics.h"
 
 namespace depth_fusion {
 
@@ -26,5 +30,11 @@ cv::Mat colorFromImage(const sensor_msgs::Image& message, const std::string& top
 
 // jpeg or png as CV_8UC3 BGR or CV_8UC1.
 cv::Mat colorFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic);
+
+// Of a rectified image (image_rect*) the projection P, of another the camera matrix K.
+CameraIntrinsics cameraFromInfo(const sensor_msgs::CameraInfo& info, const std::string& image_topic);
+
+// The lens distorts the image, and cameraFromInfo leaves that out.
+bool ignoresDistortion(const sensor_msgs::CameraInfo& info, const std::string& image_topic);
 
 }  // namespace depth_fusion

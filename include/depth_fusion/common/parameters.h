@@ -8,7 +8,7 @@
 namespace depth_fusion {
 
 // A row bound to a member of a parameter struct. Minimum and maximum are inclusive and apply to numbers only, choices
-// to texts only.
+// to texts only (none: any text).
 struct Parameter {
   std::string name;  // lower_snake_case, with the unit as suffix where it has one (truncation_m)
   std::variant<bool*, int*, float*, std::string*> value;

@@ -30,6 +30,7 @@ class StageTimers {
 
   void record(const std::string& stage, double milliseconds) { samples_ms_[stage].push_back(milliseconds); }
   const std::map<std::string, std::vector<double>>& samplesMs() const { return samples_ms_; }
+  void clear() { samples_ms_.clear(); }
 
  private:
   std::map<std::string, std::vector<double>> samples_ms_;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "depth_fusion/common/stage_timers.h"
+#include "depth_fusion/compute/result_pool.h"
 #include "depth_fusion/geometry/pose.h"
 #include "depth_fusion/map/block_sparse_map.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
@@ -27,6 +28,8 @@ class ModelViewRenderer {
 
   // Casts rays through the map between min_range_m and max_range_m. The result stays valid until the next call.
   const ModelView& render(const Pose& T_W_D, float min_range_m, float max_range_m, StageTimers& timers);
+  // The last result, valid and unchanged for as long as it is held.
+  std::shared_ptr<const ModelView> view() const { return views_.current(); }
 
   // Pictures of the last view, CV_8UC3 BGR: grey and lit from the camera; in the map's colours, grey where it has none.
   cv::Mat shadedPicture();
@@ -39,7 +42,7 @@ class ModelViewRenderer {
 
   ComputeContext& compute_;
   BlockSparseMap& map_;
-  ModelView view_;
+  ResultPool<ModelView> views_;
   DeviceBuffer nearest_, farthest_, coarse_;
   DeviceBuffer picture_;  // allocated for the first one
   std::unique_ptr<Kernels> kernels_;

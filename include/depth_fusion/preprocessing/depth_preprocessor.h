@@ -7,6 +7,7 @@
 #include "depth_fusion/common/parameters.h"
 #include "depth_fusion/compute/compute_context.h"
 #include "depth_fusion/compute/device_buffer.h"
+#include "depth_fusion/compute/result_pool.h"
 #include "depth_fusion/preprocessing/depth_sensor.h"
 #include "depth_fusion/recording/rgbd_frame.h"
 
@@ -52,6 +53,8 @@ class DepthPreprocessor {
   // of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid until the next call.
   // Throws Error if the type or size of depth or weights is not the expected.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity = Vector6d::Zero());
+  // The last result, valid and unchanged for as long as it is held.
+  std::shared_ptr<const DepthFrame> result() const { return results_.current(); }
 
  private:
   struct Kernels;
@@ -59,11 +62,11 @@ class DepthPreprocessor {
   void uploadWeights(const cv::Mat& weights);
 
   ComputeContext& compute_;
-  PreprocessingParameters parameters_;
+  PreprocessingParameters parameters_;  // with the range that the sensor's noise allows
   DeviceBuffer input_;
   DeviceBuffer skewed_depth_;
   DeviceBuffer weights_;  // empty until a frame has some
-  DepthFrame result_;
+  ResultPool<DepthFrame> results_;
   std::unique_ptr<Kernels> kernels_;
 };
 

@@ -1,0 +1,46 @@
+// From frames with poses to the map, and from the map to model views: TSDF fusion, colour fusion, ray casting.
+#pragma once
+
+#include <memory>
+
+#include "depth_fusion/model_view/model_view.h"
+#include "depth_fusion/pipeline/pipeline_parameters.h"
+
+namespace depth_fusion {
+
+struct MappingResult {
+  FusionResult fusion;
+  ColorFusionResult color;
+
+  // The frame left something in the map.
+  bool fused() const { return fusion.blocks_updated > 0; }
+};
+
+class Mapper {
+ public:
+  // Keeps a reference to the map.
+  Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParameters& parameters,
+         const CameraIntrinsics& camera);
+
+  // Fuses `depth`, which is `frame` preprocessed. An empty map is first moved to where the frame looks.
+  MappingResult fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D, StageTimers& timers);
+
+  // The map as the camera sees it from T_W_D; valid until the next call.
+  const ModelView& render(const Pose& T_W_D, StageTimers& timers);
+  ModelViewRenderer& renderer() { return renderer_; }
+
+  // Slots of the blocks that the last frame updated or released.
+  std::vector<int> updatedBlocks(const MappingResult& last) const;
+
+ private:
+  PipelineParameters parameters_;
+  BlockSparseMap& map_;
+  TsdfFusion fusion_;
+  std::unique_ptr<ColorFusion> color_fusion_;  // null without map/color
+  ModelViewRenderer renderer_;
+};
+
+// Why a frame with a pose was not fused.
+std::string notFusedReason();
+
+}  // namespace depth_fusion

@@ -1,0 +1,48 @@
+#include "depth_fusion/pipeline/mapper.h"
+
+#include "pipeline/depth_in_range.h"
+
+namespace depth_fusion {
+namespace {
+
+// The window's middle lies ahead of the camera, at the mean depth of what it sees first.
+Eigen::Vector3d windowCentre(const RgbdFrame& frame, const PreprocessingParameters& parameters, const Pose& T_W_D) {
+  const double ahead_m = frame.depth_unit_m * cv::mean(frame.depth, depthInRange(frame, parameters))[0];
+  return T_W_D * Eigen::Vector3d(0.0, 0.0, ahead_m);
+}
+
+}  // namespace
+
+Mapper::Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParameters& parameters,
+               const CameraIntrinsics& camera)
+    : parameters_(withinSensorRange(parameters)),
+      map_(map),
+      fusion_(compute, map, parameters.tsdf_fusion),
+      renderer_(compute, map, camera) {
+  if (map.parameters().color) color_fusion_ = std::make_unique<ColorFusion>(compute, map, parameters.color_fusion);
+}
+
+MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D, StageTimers& timers) {
+  MappingResult result;
+  if (map_.usage().blocks == 0) map_.reset(windowCentre(frame, parameters_.preprocessing, T_W_D));
+  result.fusion = fusion_.integrate(depth, T_W_D, timers);
+  if (color_fusion_) {
+    result.color = color_fusion_->integrate(frame, depth, T_W_D, fusion_.visibleBlocks(),
+                                            result.fusion.blocks_updated, timers);
+  }
+  return result;
+}
+
+const ModelView& Mapper::render(const Pose& T_W_D, StageTimers& timers) {
+  return renderer_.render(T_W_D, parameters_.preprocessing.min_range_m, parameters_.preprocessing.max_range_m, timers);
+}
+
+std::vector<int> Mapper::updatedBlocks(const MappingResult& last) const {
+  return fusion_.visibleBlocks().read<int>(last.fusion.blocks_updated);
+}
+
+std::string notFusedReason() {
+  return "no depth in range and in the map's window; see map/blocks_per_axis and preprocessing/max_range_m";
+}
+
+}  // namespace depth_fusion

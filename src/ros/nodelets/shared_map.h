@@ -1,0 +1,37 @@
+// What the nodelets of one process share: the compute device and the map.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "depth_fusion/map/block_sparse_map.h"
+
+namespace depth_fusion {
+
+// One context a device choice for the whole process; it lives as long as somebody holds it. Throws Error without a device.
+std::shared_ptr<ComputeContext> sharedCompute(const std::string& device);
+
+uint32_t newGeneration();
+
+struct SharedMap {
+  SharedMap(std::shared_ptr<ComputeContext> context, const MapParameters& parameters)
+      : compute(std::move(context)), map(*compute, parameters) {}
+
+  // Empties the map; the caller holds the mutex.
+  void reset();
+
+  const std::shared_ptr<ComputeContext> compute;
+  std::mutex mutex;    // held by whoever reads or changes the map
+  BlockSparseMap map;
+  std::atomic<uint32_t> generation{newGeneration()};  // another one after every reset, and of every map of the process
+  std::string frame_id;  // of the map's coordinates
+};
+
+// Makes the map known by the resolved name of the nodelet that has it.
+void offerMap(const std::string& name, const std::shared_ptr<SharedMap>& map);
+// Null if no nodelet of that name in this process has a map (yet).
+std::shared_ptr<SharedMap> findMap(const std::string& name);
+
+}  // namespace depth_fusion

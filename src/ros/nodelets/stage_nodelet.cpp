@@ -1,0 +1,76 @@
+#include "ros/nodelets/stage_nodelet.h"
+
+#include "depth_fusion/common/percentile.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr double kReportPeriod_s = 1.0;
+
+}  // namespace
+
+void StageNodelet::onInit() {
+  try {
+    start();
+  } catch (const std::exception& error) {
+    NODELET_FATAL_STREAM(getName() << ": " << error.what());
+    throw;
+  }
+}
+
+void StageNodelet::startReporting() {
+  ros::NodeHandle& handle = getMTPrivateNodeHandle();
+  timings_publisher_ = handle.advertise<StageTimings>("stage_timings", 1);
+  updater_ = std::make_unique<diagnostic_updater::Updater>(getMTNodeHandle(), handle, getName());
+  updater_->setHardwareID("none");
+  updater_->add("frames", this, &StageNodelet::diagnoseFrames);
+  report_timer_ =
+      handle.createWallTimer(ros::WallDuration(kReportPeriod_s), [this](const ros::WallTimerEvent&) { report(); });
+}
+
+void StageNodelet::stopReporting() { report_timer_.stop(); }
+
+void StageNodelet::recordTimings(const StageTimers& timers) {
+  const std::lock_guard<std::mutex> lock(timers_mutex_);
+  for (const auto& [stage, samples_ms] : timers.samplesMs()) {
+    for (const double sample_ms : samples_ms) timers_.record(stage, sample_ms);
+  }
+}
+
+void StageNodelet::report() {
+  publishTimings();
+  updater_->force_update();
+}
+
+void StageNodelet::publishTimings() {
+  StageTimings timings;
+  timings.header.stamp = ros::Time::now();
+  {
+    const std::lock_guard<std::mutex> lock(timers_mutex_);
+    for (const auto& [stage, samples_ms] : timers_.samplesMs()) {
+      timings.stages.push_back(stage);
+      timings.samples.push_back(static_cast<uint32_t>(samples_ms.size()));
+      timings.median_ms.push_back(static_cast<float>(percentile(samples_ms, 0.5)));
+      timings.p95_ms.push_back(static_cast<float>(percentile(samples_ms, 0.95)));
+    }
+    timers_.clear();
+  }
+  last_timings_ = timings;
+  timings_publisher_.publish(timings);
+}
+
+void StageNodelet::diagnoseFrames(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const FrameAccount account = counter_.account();
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
+  diagnose(status);
+  status.add("frames a second", static_cast<double>(account.processed - last_processed_) / kReportPeriod_s);
+  last_processed_ = account.processed;
+  status.add("frames received", account.received);
+  status.add("frames processed", account.processed);
+  for (size_t i = 0; i < account.reasons.size(); ++i) status.add("dropped: " + account.reasons[i], account.dropped[i]);
+  for (size_t i = 0; i < last_timings_.stages.size(); ++i)
+    status.addf(last_timings_.stages[i] + " ms", "%.2f median, %.2f p95", last_timings_.median_ms[i],
+                last_timings_.p95_ms[i]);
+}
+
+}  // namespace depth_fusion

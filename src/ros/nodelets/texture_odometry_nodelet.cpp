@@ -1,0 +1,108 @@
+// Texture odometry: the motion between frames from their texture, for tracking and as nav_msgs/Odometry.
+#include <nav_msgs/Odometry.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "ros/messages.h"
+#include "ros/nodelets/rgbd_subscriber.h"
+#include "ros/nodelets/stage_nodelet.h"
+#include "ros/nodelets/worker.h"
+
+namespace depth_fusion {
+
+class TextureOdometryNodelet : public StageNodelet {
+ public:
+  ~TextureOdometryNodelet() override {
+    stopReporting();
+    subscriber_.reset();
+    worker_.reset();
+  }
+
+ private:
+  void start() override;
+  void process(const SensorFramePtr& sensor);
+  void publishOdometry(const TexturedFrame& frame);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
+
+  TextureOdometryParameters parameters_;
+  std::string odom_frame_ = "texture_odom";
+  int queue_size_ = 3;
+  std::unique_ptr<TextureOdometry> odometry_;
+  uint32_t clock_jumps_ = 0;
+  Pose T_O_D_ = Pose::Identity();  // O: the odometry's frame, the first camera's
+  Matrix6d covariance_ = Matrix6d::Zero();
+  ros::Publisher frame_publisher_, odometry_publisher_;
+  std::mutex status_mutex_;
+  std::string no_motion_;  // why the last frame has no motion
+  std::unique_ptr<Worker<SensorFramePtr>> worker_;
+  std::unique_ptr<RgbdSubscriber> subscriber_;
+};
+
+void TextureOdometryNodelet::start() {
+  RgbdParameters rgbd;
+  ParameterTable table = parameters_.table();
+  for (const Parameter& row : rgbd.table()) table.push_back(row);
+  table.push_back({"odom_frame", &odom_frame_, 0, 0, "frame of the odometry: where the sensor was in the first frame"});
+  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped"});
+  loadParameters(getPrivateNodeHandle(), table);
+  odometry_ = std::make_unique<TextureOdometry>(parameters_);
+
+  ros::NodeHandle& handle = getMTPrivateNodeHandle();
+  frame_publisher_ = handle.advertise<TexturedFrameMessage>("frame", 10);
+  odometry_publisher_ = handle.advertise<nav_msgs::Odometry>("odometry", 10);
+  worker_ = std::make_unique<Worker<SensorFramePtr>>(
+      queue_size_, [this](const SensorFramePtr& frame) { process(frame); },
+      [this](const SensorFramePtr&) { counter_.drop("too slow"); });
+  subscriber_ = std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd, counter_,
+                                                 [this](const SensorFramePtr& frame) { worker_->push(frame); });
+  startReporting();
+}
+
+void TextureOdometryNodelet::process(const SensorFramePtr& sensor) {
+  auto frame = std::make_shared<TexturedFrame>();
+  frame->sensor = sensor;
+  StageTimers timers;
+  if (sensor->clock_jumps != std::exchange(clock_jumps_, sensor->clock_jumps)) odometry_->reset();
+  if (parameters_.enabled) {
+    const StageTimers::Scope timer(timers, "texture_odometry");
+    frame->motion = odometry_->process(sensor->rgbd);
+    frame->features = odometry_->previous();
+  } else {
+    frame->motion.reason = frame->features.reason = "texture_odometry/enabled is false";
+  }
+  recordTimings(timers);
+  counter_.process();
+  {
+    const std::lock_guard<std::mutex> lock(status_mutex_);
+    no_motion_ = frame->motion.found ? "" : frame->motion.reason;
+  }
+  publishOdometry(*frame);
+  frame_publisher_.publish(makeMessage<TexturedFrame>(sensor->header, frame));
+}
+
+void TextureOdometryNodelet::publishOdometry(const TexturedFrame& frame) {
+  if (!frame.motion.found) return;
+  const Matrix6d to_odom = adjoint(T_O_D_);
+  covariance_ += to_odom * frame.motion.covariance * to_odom.transpose();
+  T_O_D_ = orthonormalized(T_O_D_ * frame.motion.T_previous_current);
+  if (odometry_publisher_.getNumSubscribers() == 0) return;
+  auto odometry = boost::make_shared<nav_msgs::Odometry>();
+  odometry->header = makeHeader(frame.sensor->header.stamp, odom_frame_);
+  odometry->child_frame_id = frame.sensor->header.frame_id;
+  odometry->pose = toMessage(T_O_D_, covariance_);
+  odometry_publisher_.publish(odometry);
+}
+
+void TextureOdometryNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::string problem = subscriber_->problem();
+  const std::lock_guard<std::mutex> lock(status_mutex_);
+  if (!problem.empty()) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, problem);
+  } else if (!no_motion_.empty()) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no motion: " + no_motion_);
+  }
+  status.add("queue", worker_->waiting());
+}
+
+}  // namespace depth_fusion
+
+PLUGINLIB_EXPORT_CLASS(depth_fusion::TextureOdometryNodelet, nodelet::Nodelet)

@@ -1,0 +1,77 @@
+// A thread that works on items one after the other; the newest survive when it is too slow.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace depth_fusion {
+
+template <class Item>
+class Worker {
+ public:
+  // `work` is called in the thread, `drop` with what did not fit or was cleared, in whatever thread.
+  Worker(size_t capacity, std::function<void(const Item&)> work, std::function<void(const Item&)> drop)
+      : capacity_(capacity), work_(std::move(work)), drop_(std::move(drop)), thread_([this] { run(); }) {}
+
+  // Waits for the item at work; those waiting are forgotten.
+  ~Worker() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      stopping_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+
+  void push(const Item& item) {
+    std::deque<Item> dropped;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      for (; items_.size() >= capacity_; items_.pop_front()) dropped.push_back(items_.front());
+      items_.push_back(item);
+    }
+    changed_.notify_all();
+    for (const Item& old : dropped) drop_(old);
+  }
+
+  void clear() {
+    std::deque<Item> dropped;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      dropped.swap(items_);
+    }
+    for (const Item& old : dropped) drop_(old);
+  }
+
+  size_t waiting() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return items_.size();
+  }
+
+ private:
+  void run() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [this] { return stopping_ || !items_.empty(); });
+      if (stopping_) return;
+      const Item item = items_.front();
+      items_.pop_front();
+      lock.unlock();
+      work_(item);
+      lock.lock();
+    }
+  }
+
+  const size_t capacity_;
+  const std::function<void(const Item&)> work_, drop_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Item> items_;
+  bool stopping_ = false;
+  std::thread thread_;  // last: it uses the others
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,67 @@
+// A recording played without loss gives what the offline pipeline makes of it, bit for bit.
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
+#include "ros/nodelets/shared_map.h"
+#include "ros/recording.h"
+#include "support/map_contents.h"
+#include "support/nodelet_graph.h"
+#include "support/temporary_folder.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr int kFrames = 40;
+
+std::string writeBag(const TemporaryFolder& folder) {
+  const std::string path = folder / "room.bag";
+  const auto bag = createBag(path);
+  for (const RgbdFrame& frame : simulatedFrames(smallRoom(kFrames))) bag->write(frame);
+  bag->finish();
+  return path;
+}
+
+bool sameBits(const geometry_msgs::Pose& a, const geometry_msgs::Pose& b) {
+  return a.position.x == b.position.x && a.position.y == b.position.y && a.position.z == b.position.z &&
+         a.orientation.x == b.orientation.x && a.orientation.y == b.orientation.y &&
+         a.orientation.z == b.orientation.z && a.orientation.w == b.orientation.w;
+}
+
+TEST(Lossless, GivesTheOfflineTrajectoryAndMap) {
+  const TemporaryFolder folder;
+  const std::string bag = writeBag(folder);
+  ComputeContext compute;
+  const auto recording = openRecording(bag, {});
+  std::unique_ptr<ReconstructionPipeline> offline;
+  std::vector<geometry_msgs::Pose> expected;
+  while (const auto frame = recording->next()) {
+    if (!offline) offline = std::make_unique<ReconstructionPipeline>(compute, PipelineParameters(), frame->intrinsics);
+    const FrameResult result = offline->processFrame(*frame);
+    ASSERT_NE(result.tracking.status, TrackingStatus::kLost);
+    expected.push_back(toMessage(result.tracking.T_W_D));
+  }
+  ASSERT_EQ(expected.size(), size_t{kFrames});
+
+  NodeletGraph graph("lossless");
+  Listener<geometry_msgs::PoseWithCovarianceStamped> poses(graph.handle(), "icp_tracking/pose");
+  Listener<MapStatus> map_status(graph.handle(), "tsdf_fusion/status");
+  graph.handle().setParam("icp_tracking/level_start", false);
+  graph.handle().setParam("acquisition/recording", bag);
+  graph.handle().setParam("acquisition/lossless", true);
+  graph.handle().setParam("acquisition/rate", 100.0);
+  graph.loadTracking();
+  ASSERT_TRUE(graph.load("acquisition"));
+  ASSERT_TRUE(map_status.awaitCount(kFrames));
+  ASSERT_TRUE(poses.awaitCount(kFrames));
+  EXPECT_EQ(map_status.count(), size_t{kFrames});
+  for (const auto& status : map_status.all()) EXPECT_TRUE(status->fused) << status->reason;
+  for (size_t i = 0; i < expected.size(); ++i)
+    EXPECT_TRUE(sameBits(poses.all()[i]->pose.pose, expected[i])) << "frame " << i;
+
+  const std::shared_ptr<SharedMap> map = findMap(graph.resolve("tsdf_fusion"));
+  ASSERT_NE(map, nullptr);
+  EXPECT_TRUE(readMap(map->map) == readMap(offline->map()));
+}
+
+}  // namespace
+}  // namespace depth_fusion
