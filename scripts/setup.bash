@@ -16,7 +16,7 @@ ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 DEBIAN_PACKAGES=(
   catkin catkin-lint libgtest-dev
   ros-message-generation ros-message-runtime ros-std-msgs
-  libroscpp-dev libroscpp-core-dev  libnodelet-dev libnodeletlib-dev libnodeletlib-tools libdiagnostic-updater-dev
+  libroscpp-dev libroscpp-core-dev pluginlib-dev libnodelet-dev libnodeletlib-dev libnodeletlib-tools libdiagnostic-updater-dev
   librosbag-storage-dev libtf2-ros-dev libtf2-msgs-dev
   libstd-msgs-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libvisualization-msgs-dev libdiagnostic-msgs-dev
   libstd-srvs-dev libros-rosgraph-msgs-dev
