@@ -142,12 +142,12 @@ typedef struct {
 } MatchingArgs;
 
 // A block of a batch of the surface mesh. Only the first blocks of a batch, the core, emit; the others lend them their
-// vertices.
+// vertices. Those of the core whose own place, neighbours[0], is -1 emit vertices only.
 typedef struct {
   int index[3];
   unsigned first_vertex;    // of the whole mesh
   unsigned first_triangle;  // of the batch
-  int neighbours[8];        // place in the batch of the block (n & 1, n >> 1 & 1, n >> 2 & 1) farther, -1 if not there
+  int neighbours[8];        // place in the batch of the block (n & 1, n >> 1 & 1, n >> 2 & 1) farther, or -1
 } MeshBlockArgs;
 
 // Sums of the ICP system: the upper triangle of J^T w J row by row, J^T w r, w r^2, the number of inliers, and the
