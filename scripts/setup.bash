@@ -22,7 +22,7 @@ DEBIAN_PACKAGES=(
   libstd-msgs-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libvisualization-msgs-dev libdiagnostic-msgs-dev
   libstd-srvs-dev libros-rosgraph-msgs-dev
   librostest-dev python3-rostest python3-roslaunch python3-rosbag python3-rosservice python3-rostopic rosbash rosout rospack-tools
-  libeigen3-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev
+  libeigen3-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev
   ocl-icd-opencl-dev opencl-headers
 )
 

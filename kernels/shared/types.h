@@ -13,6 +13,10 @@
 #define BLOCK_HAS_DATA 1       // some voxel is not chi
 #define BLOCK_NEAR_SURFACE 2   // some voxel lies within a voxel's diagonal of the surface
 
+// Voxels that a work-item of the kernels over whole blocks takes: one on a GPU; on a CPU a block, or a large block's slice.
+#define VOXELS_PER_ITEM(simd_width, block_size) \
+  ((simd_width) == 1 ? 1 : (block_size) > 8 ? (block_size) * (block_size) : (block_size) * (block_size) * (block_size))
+
 // A voxel's second byte says how sure its distance is, 1 to 255: the number of measurements, their weight, or by the
 // Kalman filter a code of the variance. The code's scale is that of a float's bits, logarithmic but for straight lines
 // between the powers of two: 1 stands for a standard deviation of 50 mm, 255 for 0.05 mm.
@@ -138,12 +142,12 @@ typedef struct {
 } MatchingArgs;
 
 // A block of a batch of the surface mesh. Only the first blocks of a batch, the core, emit; the others lend them their
-// vertices.
+// vertices. Those of the core whose own place, neighbours[0], is -1 emit vertices only.
 typedef struct {
   int index[3];
   unsigned first_vertex;    // of the whole mesh
   unsigned first_triangle;  // of the batch
-  int neighbours[8];        // place in the batch of the block (n & 1, n >> 1 & 1, n >> 2 & 1) farther, -1 if not there
+  int neighbours[8];        // place in the batch of the block (n & 1, n >> 1 & 1, n >> 2 & 1) farther, or -1
 } MeshBlockArgs;
 
 // Sums of the ICP system: the upper triangle of J^T w J row by row, J^T w r, w r^2, the number of inliers, and the

@@ -23,6 +23,7 @@ __kernel void emit_triangles(__global uint *triangles, __global const ulong2 *ro
   const int i = get_global_id(0);
   if (i >= core_count * ROWS) return;
   const int block = i / ROWS;
+  if (blocks[block].neighbours[0] < 0) return;
   const int y = i % BLOCK_SIZE;
   const int z = i % ROWS / BLOCK_SIZE;
   __global const ulong2 *row = masks_of_row(row_masks, block, y, z);

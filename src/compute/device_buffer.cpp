@@ -57,4 +57,11 @@ void DeviceBuffer::fill(int pattern, size_t bytes) {
               "clEnqueueFillBuffer");
 }
 
+void DeviceBuffer::copyFrom(const DeviceBuffer& source, size_t bytes) {
+  if (bytes == 0) return;
+  checkStatus(clEnqueueCopyBuffer(compute_->impl().queue(), source.handle(), handle_, 0, 0, bytes, 0, nullptr,
+                                  nullptr),
+              "clEnqueueCopyBuffer");
+}
+
 }  // namespace depth_fusion

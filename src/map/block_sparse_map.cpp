@@ -18,6 +18,34 @@ size_t cube(int n) { return static_cast<size_t>(n) * static_cast<size_t>(n) * st
 
 int floorModulo(int a, int n) { return (a % n + n) % n; }
 
+// Bytes of a block in the pool, and of its colours.
+size_t blockBytes(const MapParameters& map) { return 2 * cube(map.block_size); }
+size_t blockColorBytes(const MapParameters& map) { return map.color ? kColorBytes * cube(map.block_size) : 0; }
+
+MapParameters checked(MapParameters parameters) {
+  validate(parameters.table());
+  const int m = parameters.block_size;
+  check((m & (m - 1)) == 0, "map/block_size is " + std::to_string(m) + "; it must be a power of two");
+  if (parameters.truncation_m == 0.0f) parameters.truncation_m = 4.0f * parameters.voxel_size_m;
+  check(parameters.truncation_m >= 2.0f * parameters.voxel_size_m,
+        "map/truncation_m must be at least two voxels, else no surface is seen between them");
+  return parameters;
+}
+
+// How many blocks the pool holds.
+size_t poolCapacity(ComputeContext& compute, const MapParameters& parameters) {
+  const size_t capacity = std::min((static_cast<size_t>(parameters.pool_mib) << 20) / blockBytes(parameters),
+                                   cube(parameters.blocks_per_axis));
+  check(capacity > 0, "map/pool_mib holds not even one block");
+  const size_t limit = compute.impl().device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  check(capacity * blockBytes(parameters) <= limit,
+        "map/pool_mib is over the device's largest buffer, " + std::to_string(limit >> 20) + " MiB");
+  check(capacity * blockColorBytes(parameters) <= limit,
+        "map/pool_mib is, with map/color, over the half of the device's largest buffer, " +
+            std::to_string(limit >> 20) + " MiB");
+  return capacity;
+}
+
 }  // namespace
 
 ParameterTable MapParameters::table() {
@@ -58,32 +86,23 @@ struct BlockSparseMap::Kernels {
 };
 
 BlockSparseMap::BlockSparseMap(ComputeContext& compute, const MapParameters& parameters)
-    : compute_(compute), parameters_(parameters) {
-  validate(parameters_.table());
-  const int m = parameters_.block_size;
-  check((m & (m - 1)) == 0, "map/block_size is " + std::to_string(m) + "; it must be a power of two");
-  if (parameters_.truncation_m == 0.0f) parameters_.truncation_m = 4.0f * parameters_.voxel_size_m;
-  check(parameters_.truncation_m >= 2.0f * parameters_.voxel_size_m,
-        "map/truncation_m must be at least two voxels, else no surface is seen between them");
-  const size_t block_bytes = 2 * cube(m);
-  capacity_ = std::min((static_cast<size_t>(parameters_.pool_mib) << 20) / block_bytes,
-                       cube(parameters_.blocks_per_axis));
-  check(capacity_ > 0, "map/pool_mib holds not even one block");
-  const size_t limit = compute.impl().device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-  check(capacity_ * block_bytes <= limit, "map/pool_mib is over the device's largest buffer, " +
-                                              std::to_string(limit >> 20) + " MiB");
-  const size_t color_bytes = parameters_.color ? kColorBytes * capacity_ * cube(m) : 0;
-  check(color_bytes <= limit, "map/pool_mib is, with map/color, over the half of the device's largest buffer, " +
-                                  std::to_string(limit >> 20) + " MiB");
-  offsets_ = DeviceBuffer(compute, 4 * cube(parameters_.blocks_per_axis), "the offsets of map/blocks_per_axis");
-  voxels_ = DeviceBuffer(compute, capacity_ * block_bytes, "the voxels of map/pool_mib");
-  if (parameters_.color) colors_ = DeviceBuffer(compute, color_bytes, "the colours of map/color");
-  block_indices_ = DeviceBuffer(compute, capacity_ * sizeof(BlockRequest), "the block indices of the map");
-  block_states_ = DeviceBuffer(compute, capacity_ * sizeof(int), "the block states of the map");
-  request_transfer_ = DeviceBuffer(compute, kTransferBlocks * sizeof(BlockRequest), "block requests");
-  slot_transfer_ = DeviceBuffer(compute, kTransferBlocks * sizeof(int), "block slots");
-  kernels_ = std::make_unique<Kernels>(compute, blockSizeOption(parameters_));
+    : BlockSparseMap(compute, checked(parameters), poolCapacity(compute, checked(parameters))) {
   reset(Eigen::Vector3d::Zero());
+}
+
+BlockSparseMap::BlockSparseMap(ComputeContext& compute, const MapParameters& checked, size_t capacity)
+    : compute_(compute),
+      parameters_(checked),
+      capacity_(capacity),
+      offsets_(compute, 4 * cube(checked.blocks_per_axis), "the offsets of map/blocks_per_axis"),
+      voxels_(compute, capacity * blockBytes(checked), "the voxels of map/pool_mib"),
+      block_indices_(compute, capacity * sizeof(BlockRequest), "the block indices of the map"),
+      block_states_(compute, capacity * sizeof(int), "the block states of the map"),
+      request_transfer_(compute, kTransferBlocks * sizeof(BlockRequest), "block requests"),
+      slot_transfer_(compute, kTransferBlocks * sizeof(int), "block slots"),
+      kernels_(std::make_unique<Kernels>(compute, blockSizeOption(checked))) {
+  if (blockColorBytes(checked) > 0)
+    colors_ = DeviceBuffer(compute, capacity * blockColorBytes(checked), "the colours of map/color");
 }
 
 BlockSparseMap::~BlockSparseMap() = default;
@@ -146,6 +165,26 @@ void BlockSparseMap::release(const std::vector<int>& slots) {
     slot_in_use_[slot] = false;
     free_slots_.push_back(slot);
   }
+}
+
+std::unique_ptr<BlockSparseMap> BlockSparseMap::snapshot(bool with_color) const {
+  MapParameters parameters = parameters_;
+  parameters.color = parameters.color && with_color;
+  const size_t slots = static_cast<size_t>(slot_bound_);
+  std::unique_ptr<BlockSparseMap> copy(new BlockSparseMap(compute_, parameters, std::max<size_t>(slots, 1)));
+  copy->offsets_.copyFrom(offsets_, offsets_.bytes());
+  copy->voxels_.copyFrom(voxels_, slots * blockBytes(parameters));
+  copy->colors_.copyFrom(colors_, slots * blockColorBytes(parameters));
+  copy->block_indices_.copyFrom(block_indices_, slots * sizeof(BlockRequest));
+  copy->block_states_.copyFrom(block_states_, slots * sizeof(int));
+  copy->origin_ = origin_;
+  copy->slot_blocks_ = slot_blocks_;
+  copy->slot_in_use_ = slot_in_use_;
+  copy->slot_bound_ = slot_bound_;
+  for (int slot = 0; slot < static_cast<int>(copy->capacity_); ++slot) {
+    if (slot >= slot_bound_ || !slot_in_use_[slot]) copy->free_slots_.push_back(slot);
+  }
+  return copy;
 }
 
 BlockSparseMap::Usage BlockSparseMap::usage() const {

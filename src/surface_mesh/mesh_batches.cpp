@@ -31,15 +31,21 @@ uint64_t nextAlong(uint64_t code, int axis) {
 
 }  // namespace
 
+MeshBlock meshBlock(const BlockSparseMap& map, const BlockSparseMap::BlockIndex& index) {
+  MeshBlock block;
+  block.morton_code = mortonCode(index - map.origin());
+  return block;
+}
+
+void sortAlongMortonCurve(std::vector<MeshBlock>& blocks) {
+  std::sort(blocks.begin(), blocks.end(),
+            [](const MeshBlock& a, const MeshBlock& b) { return a.morton_code < b.morton_code; });
+}
+
 std::vector<MeshBlock> mortonOrderedBlocks(const BlockSparseMap& map) {
   std::vector<MeshBlock> ordered;
-  for (const BlockSparseMap::Block& block : map.blocks()) {
-    MeshBlock mesh_block;
-    mesh_block.morton_code = mortonCode(block.index - map.origin());
-    ordered.push_back(mesh_block);
-  }
-  std::sort(ordered.begin(), ordered.end(),
-            [](const MeshBlock& a, const MeshBlock& b) { return a.morton_code < b.morton_code; });
+  for (const BlockSparseMap::Block& block : map.blocks()) ordered.push_back(meshBlock(map, block.index));
+  sortAlongMortonCurve(ordered);
   return ordered;
 }
 
@@ -77,7 +83,9 @@ MeshBatch MeshBatcher::next() {
 
 MeshBatcher::Neighbours MeshBatcher::neighboursOf(size_t block) const {
   Neighbours neighbours;
-  for (int n = 0; n < 8; ++n) {
+  neighbours.fill(kNowhere);
+  neighbours[0] = block;
+  for (int n = 1; n < 8 && !blocks_[block].lends_only; ++n) {
     uint64_t code = blocks_[block].morton_code;
     for (int axis = 0; axis < 3; ++axis) {
       if ((n >> axis & 1) != 0) code = nextAlong(code, axis);
@@ -85,8 +93,8 @@ MeshBatcher::Neighbours MeshBatcher::neighboursOf(size_t block) const {
     const auto found =
         std::lower_bound(blocks_.begin() + static_cast<std::ptrdiff_t>(block), blocks_.end(), code,
                          [](const MeshBlock& b, uint64_t c) { return b.morton_code < c; });
-    const bool exists = found != blocks_.end() && found->morton_code == code;
-    neighbours[n] = exists ? static_cast<size_t>(found - blocks_.begin()) : kNowhere;
+    if (found != blocks_.end() && found->morton_code == code)
+      neighbours[n] = static_cast<size_t>(found - blocks_.begin());
   }
   return neighbours;
 }
@@ -115,6 +123,7 @@ void MeshBatcher::fill(MeshBatch& batch, size_t core_begin, const std::vector<Ne
   for (size_t i = 0; i < core.size(); ++i) {
     for (int n = 0; n < 8; ++n)
       batch.blocks[i].neighbours[n] = core[i][n] == kNowhere ? -1 : places_[core[i][n]];
+    if (blocks_[core_begin + i].lends_only) batch.blocks[i].neighbours[0] = -1;
   }
   for (const size_t member : members) places_[member] = -1;
 }

@@ -16,10 +16,14 @@ struct MeshBlock {
   uint32_t vertices = 0;
   uint32_t triangles = 0;
   uint32_t first_vertex = 0;
+  bool lends_only = false;  // its vertices, to other blocks' triangles; it emits none itself
 };
 
 // All the blocks of the map along the Morton curve, on which neighbours are mostly near each other.
 std::vector<MeshBlock> mortonOrderedBlocks(const BlockSparseMap& map);
+
+MeshBlock meshBlock(const BlockSparseMap& map, const BlockSparseMap::BlockIndex& index);
+void sortAlongMortonCurve(std::vector<MeshBlock>& blocks);
 
 // Index and first vertex; the rest is for the batch to fill in.
 MeshBlockArgs blockArgs(const BlockSparseMap& map, const MeshBlock& block);
@@ -49,7 +53,7 @@ class MeshBatcher {
   MeshBatch next();
 
  private:
-  // The block and those beyond its far sides, as MeshBlockArgs numbers them; kNowhere if not in the list.
+  // The block and those beyond its far sides, as MeshBlockArgs numbers them; kNowhere if not in the list or not needed.
   using Neighbours = std::array<size_t, 8>;
   static constexpr size_t kNowhere = static_cast<size_t>(-1);
 

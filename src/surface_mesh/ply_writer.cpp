@@ -1,13 +1,8 @@
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 
-#include "depth_fusion/common/error.h"
 #include "depth_fusion/surface_mesh/ply.h"
+#include "surface_mesh/whole_file.h"
 
 namespace depth_fusion {
 namespace {
@@ -27,28 +22,15 @@ std::string header(const MeshSize& size) {
          "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
-// Devices and pipes are not ours to remove.
-void removeRegularFile(const std::string& path) {
-  struct stat status {};
-  if (lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode)) unlink(path.c_str());
-}
-
 }  // namespace
 
-PlyWriter::PlyWriter(const std::string& path)
-    : path_(path), file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-  if (file_ < 0) fail("cannot be created");
-}
+PlyWriter::PlyWriter(const std::string& path) : file_(std::make_unique<WholeFile>(path)) {}
 
-PlyWriter::~PlyWriter() {
-  if (file_ < 0) return;
-  close(file_);
-  removeRegularFile(path_);
-}
+PlyWriter::~PlyWriter() = default;
 
 void PlyWriter::begin(const MeshSize& size) {
   const std::string text = header(size);
-  writeAt(0, text.data(), text.size());
+  file_->writeAt(0, text.data(), text.size());
   vertex_offset_ = text.size();
   colored_ = size.colored;
   face_offset_ = vertex_offset_ + size.vertices * (colored_ ? kColoredVertexBytes : sizeof(MeshVertex));
@@ -67,7 +49,7 @@ void PlyWriter::addVertices(const MeshVertex* vertices, const MeshColor* colors,
     }
     data = colored_vertices_.data();
   }
-  writeAt(vertex_offset_, data, bytes);
+  file_->writeAt(vertex_offset_, data, bytes);
   vertex_offset_ += bytes;
 }
 
@@ -79,46 +61,18 @@ void PlyWriter::addTriangles(const MeshTriangle* triangles, size_t count) {
       faces_[i * kFaceBytes] = kCorners;
       std::memcpy(&faces_[i * kFaceBytes + 1], &triangles[i], sizeof(MeshTriangle));
     }
-    writeAt(face_offset_, faces_.data(), batch * kFaceBytes);
+    file_->writeAt(face_offset_, faces_.data(), batch * kFaceBytes);
     face_offset_ += batch * kFaceBytes;
     triangles += batch;
     count -= batch;
   }
 }
 
-void PlyWriter::finish() {
-  const int file = file_;
-  file_ = -1;
-  if (close(file) == 0) return;
-  const int reason = errno;
-  removeRegularFile(path_);
-  errno = reason;
-  fail("cannot be written");
-}
-
-void PlyWriter::writeAt(uint64_t offset, const void* data, size_t bytes) {
-  const char* next = static_cast<const char*>(data);
-  while (bytes > 0) {
-    const ssize_t written = pwrite(file_, next, bytes, static_cast<off_t>(offset));
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("cannot be written");
-    next += written;
-    offset += static_cast<uint64_t>(written);
-    bytes -= static_cast<size_t>(written);
-  }
-}
-
-void PlyWriter::fail(const std::string& action) const {
-  throw Error("mesh file " + path_ + " " + action + ": " + std::strerror(errno));
-}
+void PlyWriter::finish() { file_->commit(); }
 
 void writePly(const std::string& path, const TriangleMesh& mesh) {
   PlyWriter writer(path);
-  const bool colored = !mesh.colors.empty();
-  writer.begin({mesh.vertices.size(), mesh.triangles.size(), colored});
-  writer.addVertices(mesh.vertices.data(), colored ? mesh.colors.data() : nullptr, mesh.vertices.size());
-  writer.addTriangles(mesh.triangles.data(), mesh.triangles.size());
-  writer.finish();
+  sendMesh(mesh, writer);
 }
 
 }  // namespace depth_fusion

@@ -1,72 +1,12 @@
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 
-#include <algorithm>
-#include <limits>
-
-#include "depth_fusion/common/error.h"
-#include "surface_mesh/surface_mesh_kernels.h"
+#include "surface_mesh/mesh_extraction.h"
 
 namespace depth_fusion {
-namespace {
-
-// First pass: how many vertices and triangles each block has.
-void countBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map, std::vector<MeshBlock>& blocks) {
-  std::vector<MeshBlockArgs> batch;
-  for (size_t begin = 0; begin < blocks.size(); begin += batch.size()) {
-    const size_t end = std::min(begin + kernels.limits().blocks, blocks.size());
-    batch.clear();
-    for (size_t i = begin; i < end; ++i) batch.push_back(blockArgs(map, blocks[i]));
-    kernels.classify(batch);
-    const auto totals = kernels.totals(batch.size());
-    for (size_t i = begin; i < end; ++i) {
-      blocks[i].vertices = totals[i - begin].vertices;
-      blocks[i].triangles = totals[i - begin].triangles;
-    }
-  }
-}
-
-// Leaves out the blocks without surface and numbers the vertices of the others.
-MeshSize numberVertices(std::vector<MeshBlock>& blocks) {
-  blocks.erase(
-      std::remove_if(blocks.begin(), blocks.end(),
-                     [](const MeshBlock& block) { return block.vertices == 0 && block.triangles == 0; }),
-      blocks.end());
-  MeshSize size;
-  for (MeshBlock& block : blocks) {
-    block.first_vertex = static_cast<uint32_t>(size.vertices);
-    size.vertices += block.vertices;
-    size.triangles += block.triangles;
-  }
-  check(size.vertices <= static_cast<uint64_t>(std::numeric_limits<int32_t>::max()),
-        "the mesh would have " + std::to_string(size.vertices) +
-            " vertices, over the 2147483647 that a mesh can number; use a larger map/voxel_size_m");
-  return size;
-}
-
-// Second pass: the mesh itself. Returns the number of batches.
-size_t emitBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map,
-                  const std::vector<MeshBlock>& blocks, bool colored, MeshSink& sink) {
-  MeshBatcher batcher(map, blocks, kernels.limits());
-  std::vector<MeshVertex> vertices;
-  std::vector<MeshColor> colors;
-  std::vector<MeshTriangle> triangles;
-  size_t batches = 0;
-  for (; !batcher.done(); ++batches) {
-    const MeshBatch batch = batcher.next();
-    kernels.classify(batch.blocks);
-    kernels.emitVertices(batch, vertices);
-    if (colored) kernels.colorVertices(batch, colors);
-    sink.addVertices(vertices.data(), colored ? colors.data() : nullptr, vertices.size());
-    kernels.emitTriangles(batch, triangles);
-    sink.addTriangles(triangles.data(), triangles.size());
-  }
-  return batches;
-}
-
-}  // namespace
 
 ParameterTable SurfaceMeshParameters::table() {
-  return {{"min_certainty", &min_certainty, 0, 255, "certainty (see tsdf_fusion/rule) from which on a voxel counts as known"},
+  return {{"min_certainty", &min_certainty, 0, 255,
+           "certainty (see tsdf_fusion/rule) from which on a voxel counts as known"},
           {"max_batch_blocks", &max_batch_blocks, 8, 8192,
            "blocks extracted at a time, if 16 MiB hold so many; fewer take less memory"}};
 }
@@ -80,12 +20,7 @@ MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockSparseMap& map, M
   MeshStatistics statistics;
   statistics.blocks = blocks.size();
   statistics.device_bytes = kernels.deviceBytes();
-  countBlocks(kernels, map, blocks);
-  statistics.size = numberVertices(blocks);
-  statistics.size.colored = map.parameters().color;
-  sink.begin(statistics.size);
-  statistics.batches = emitBlocks(kernels, map, blocks, statistics.size.colored, sink);
-  sink.finish();
+  statistics.batches = extractBlocks(kernels, map, blocks, sink, statistics.size);
   return statistics;
 }
 

@@ -131,16 +131,6 @@ TEST_F(Ply, fullDiskIsNamedAndTheDeviceStays) {
   EXPECT_TRUE(exists("/dev/full"));
 }
 
-TEST_F(Ply, unfinishedFileIsRemoved) {
-  {
-    PlyWriter writer(path_);
-    writer.begin({4, 4});
-    writer.addVertices(tetrahedron().vertices.data(), nullptr, 4);
-    EXPECT_TRUE(exists(path_));
-  }
-  EXPECT_FALSE(exists(path_));
-}
-
 TEST_F(Ply, skipsOtherNumbersAndMissingNormals) {
   std::string text =
       "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar red\nproperty float x\n"

@@ -10,7 +10,7 @@ namespace depth_fusion {
 namespace {
 
 bool sameBytes(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.triangles == b.triangles && a.vertices.size() == b.vertices.size() &&
+  return a.triangles == b.triangles && a.colors == b.colors && a.vertices.size() == b.vertices.size() &&
          std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(MeshVertex)) == 0;
 }
 
@@ -26,6 +26,72 @@ TEST_F(SurfaceMesh, smallBatchesGiveTheSameBytes) {
   ASSERT_GT(whole.triangles.size(), 1000u);
   EXPECT_TRUE(sameBytes(whole, pieces));
   EXPECT_TRUE(sameBytes(whole, meshOf(map)));
+}
+
+// Gives every colour byte of the pool a value of its own place.
+void paintPool(BlockSparseMap& map) {
+  std::vector<uint8_t> bytes(map.colors().bytes());
+  for (size_t i = 0; i < bytes.size(); ++i)
+    bytes[i] = static_cast<uint8_t>(i % 4 == 3 ? 9 : i * 2654435761u >> 13);
+  map.colors().write(bytes);
+}
+
+// Releases every other block and gives its slot to a block elsewhere.
+void moveBlocks(BlockSparseMap& map) {
+  std::vector<int> released;
+  std::vector<BlockSparseMap::BlockIndex> elsewhere;
+  for (const BlockSparseMap::Block& block : map.blocks()) {
+    if (block.slot % 2 == 0) continue;
+    released.push_back(block.slot);
+    elsewhere.push_back(block.index + BlockSparseMap::BlockIndex(0, 0, 8));
+  }
+  map.release(released);
+  map.allocate(elsewhere);
+}
+
+class SnapshotOfBlockSize : public SurfaceMesh, public testing::WithParamInterface<int> {};
+
+INSTANTIATE_TEST_SUITE_P(BlockSizes, SnapshotOfBlockSize, testing::Values(4, 8, 32));
+
+TEST_P(SnapshotOfBlockSize, keepsTheSurfaceThatTheMapHad) {
+  MapParameters colored = parameters(GetParam());
+  colored.color = true;
+  BlockSparseMap map(compute(), colored);
+  fillMap(map, sphere({0.001, 0.0, 0.0}, 0.06), Eigen::Vector3i::Constant(-16 / GetParam() - 1),
+          32 / GetParam() + 2);
+  paintPool(map);
+  const TriangleMesh before = meshOf(map);
+  const auto snapshot = map.snapshot();
+  const auto colorless = map.snapshot(false);
+  map.voxels().fill(0x01010101, map.voxels().bytes());
+  map.colors().fill(0, map.colors().bytes());
+  moveBlocks(map);
+  ASSERT_GT(before.triangles.size(), 1000u);
+  ASSERT_EQ(before.colors.size(), before.vertices.size());
+  EXPECT_FALSE(sameBytes(meshOf(map), before));
+  EXPECT_TRUE(sameBytes(meshOf(*snapshot), before));
+  TriangleMesh without_colors = before;
+  without_colors.colors.clear();
+  EXPECT_TRUE(sameBytes(meshOf(*colorless), without_colors));
+}
+
+TEST_F(SurfaceMesh, snapshotTakesMemoryForTheUsedSlotsOnly) {
+  BlockSparseMap map(compute(), parameters(8));
+  fillMap(map, sphere(Eigen::Vector3d::Zero(), 0.05), Eigen::Vector3i::Constant(-2), 4);
+  const size_t slots = static_cast<size_t>(map.slotBound());
+  const auto snapshot = map.snapshot();
+  EXPECT_EQ(snapshot->usage().blocks, map.usage().blocks);
+  EXPECT_EQ(snapshot->usage().capacity, slots);
+  EXPECT_EQ(snapshot->usage().pool_bytes, 4u * 32 * 32 * 32 + slots * (2 * 512 + 20));
+}
+
+TEST_F(SurfaceMesh, snapshotOfAnEmptyMapIsEmpty) {
+  BlockSparseMap map(compute(), parameters(8));
+  map.reset({3.0, -2.0, 1.0});
+  const auto snapshot = map.snapshot();
+  EXPECT_EQ(snapshot->usage().blocks, 0u);
+  EXPECT_EQ(snapshot->origin(), map.origin());
+  EXPECT_TRUE(meshOf(*snapshot).triangles.empty());
 }
 
 TEST_F(SurfaceMesh, parametersOutOfRangeAreErrors) {

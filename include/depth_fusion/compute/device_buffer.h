@@ -28,6 +28,8 @@ class DeviceBuffer {
   void read(void* destination, size_t bytes, size_t offset_bytes = 0) const;
   // Sets the first `bytes` to copies of a 32-bit pattern.
   void fill(int pattern, size_t bytes);
+  // Copies the first `bytes` of another buffer of the same context, on the device.
+  void copyFrom(const DeviceBuffer& source, size_t bytes);
 
   template <class T>
   void write(const std::vector<T>& values) {

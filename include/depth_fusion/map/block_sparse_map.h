@@ -55,6 +55,11 @@ class BlockSparseMap {
   // Takes back the slots, which must be in use. Their entries of `offsets` are already empty on the device.
   void release(const std::vector<int>& slots);
 
+  // A copy of the map as it is now, for reading it while this one goes on changing. It takes 4 * N^3 bytes and, for each
+  // of the slotBound() slots, 2 * M^3 + 20 (6 * M^3 + 20 with colour). The copy is made on the device, in the order of its
+  // queue: this map may change as soon as the call returns. `with_color` false leaves the colours out.
+  std::unique_ptr<BlockSparseMap> snapshot(bool with_color = true) const;
+
   Usage usage() const;
   // With the truncation in metres also where it was given as 0.
   const MapParameters& parameters() const { return parameters_; }
@@ -66,6 +71,9 @@ class BlockSparseMap {
     int slot;
   };
   std::vector<Block> blocks() const;
+  // Of a slot below slotBound(): whether it is in use, and the block that it holds or held last.
+  bool inUse(int slot) const { return slot_in_use_[slot]; }
+  const BlockIndex& blockOf(int slot) const { return slot_blocks_[slot]; }
 
   // First block of the window.
   const BlockIndex& origin() const { return origin_; }
@@ -81,6 +89,9 @@ class BlockSparseMap {
 
  private:
   struct Kernels;
+
+  // With room for `capacity` blocks; the caller sets the contents.
+  BlockSparseMap(ComputeContext& compute, const MapParameters& checked, size_t capacity);
 
   ComputeContext& compute_;
   MapParameters parameters_;

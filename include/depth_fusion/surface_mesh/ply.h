@@ -1,8 +1,9 @@
-// Meshes as binary PLY files: x y z nx ny nz as floats, red green blue as uchars if the mesh is coloured, faces as lists
-// of three ints.
+// Meshes as binary PLY files: x y z nx ny nz as floats, red green blue as uchars if the mesh is coloured,
+// faces as lists of three ints.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,15 +11,15 @@
 
 namespace depth_fusion {
 
+class WholeFile;
+
 // Streams a mesh to a file; memory use does not depend on the mesh. Errors name the path and the reason.
-// Unless finish() succeeded, no file is left.
+// The file appears when finish() succeeded; else nothing is left, and a file that stood there stays.
 class PlyWriter final : public MeshSink {
  public:
   // Throws Error if the file cannot be created.
   explicit PlyWriter(const std::string& path);
   ~PlyWriter() override;
-  PlyWriter(const PlyWriter&) = delete;
-  PlyWriter& operator=(const PlyWriter&) = delete;
 
   void begin(const MeshSize& size) override;
   void addVertices(const MeshVertex* vertices, const MeshColor* colors, size_t count) override;
@@ -26,11 +27,7 @@ class PlyWriter final : public MeshSink {
   void finish() override;
 
  private:
-  void writeAt(uint64_t offset, const void* data, size_t bytes);
-  [[noreturn]] void fail(const std::string& action) const;
-
-  std::string path_;
-  int file_ = -1;
+  std::unique_ptr<WholeFile> file_;
   uint64_t vertex_offset_ = 0;
   uint64_t face_offset_ = 0;
   bool colored_ = false;
@@ -40,7 +37,8 @@ class PlyWriter final : public MeshSink {
 void writePly(const std::string& path, const TriangleMesh& mesh);
 
 // Reads a binary little-endian PLY file with float x y z, with or without nx ny nz and uchar red
-// green blue, among any other numbers of a vertex, and triangles. Throws Error naming the path and what is wrong.
+// green blue, among any other numbers of a vertex, and triangles. Throws Error naming the path and what is
+// wrong.
 TriangleMesh readPly(const std::string& path);
 
 }  // namespace depth_fusion

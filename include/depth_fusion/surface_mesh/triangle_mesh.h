@@ -26,7 +26,8 @@ struct MeshSize {
 };
 
 // Receives a mesh whose size is known beforehand: begin, then vertices and triangles in turn, each in order,
-// then finish. `colors` holds one a vertex, or is null if the mesh is not coloured. Triangles may name vertices yet to come. Throws Error if the mesh cannot be kept.
+// then finish. `colors` holds one a vertex, or is null if the mesh is not coloured. Triangles may name vertices yet to
+// come. Throws Error if the mesh cannot be kept.
 class MeshSink {
  public:
   virtual ~MeshSink() = default;
@@ -58,5 +59,14 @@ struct TriangleMesh final : MeshSink {
   }
   void finish() override {}
 };
+
+// The whole of it in one piece.
+inline void sendMesh(const TriangleMesh& mesh, MeshSink& sink) {
+  const bool colored = !mesh.colors.empty();
+  sink.begin({mesh.vertices.size(), mesh.triangles.size(), colored});
+  sink.addVertices(mesh.vertices.data(), colored ? mesh.colors.data() : nullptr, mesh.vertices.size());
+  sink.addTriangles(mesh.triangles.data(), mesh.triangles.size());
+  sink.finish();
+}
 
 }  // namespace depth_fusion

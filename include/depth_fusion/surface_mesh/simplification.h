@@ -1,0 +1,18 @@
+// Meshes of fewer triangles.
+#pragma once
+
+#include "depth_fusion/surface_mesh/triangle_mesh.h"
+
+namespace depth_fusion {
+
+// What becomes of the vertices at the mesh's open borders. Those of a mesh that is simplified piece by piece
+// must stay.
+enum class OpenBorders { kMayMove, kStay };
+
+// The share `ratio`, above 0 and up to 1, of the mesh's triangles, or as few more as its topology allows:
+// edges collapse where that moves the surface least. The vertices left keep position, normal and colour. All
+// of it happens in memory. Throws Error for another ratio, and for one below 1 where depth_fusion was built
+// without meshoptimizer.
+TriangleMesh simplified(const TriangleMesh& mesh, double ratio, OpenBorders borders = OpenBorders::kMayMove);
+
+}  // namespace depth_fusion

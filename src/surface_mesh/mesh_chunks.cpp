@@ -1,0 +1,137 @@
+#include "depth_fusion/surface_mesh/mesh_chunks.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "depth_fusion/common/error.h"
+#include "surface_mesh/mesh_extraction.h"
+#include "surface_mesh/mesh_part.h"
+
+namespace depth_fusion {
+namespace {
+
+using BlockIndex = BlockSparseMap::BlockIndex;
+
+int floorDivision(int a, int b) { return a >= 0 ? a / b : -((-a - 1) / b) - 1; }
+
+MeshChunkIndex chunkOf(const BlockIndex& block, int blocks_per_axis) {
+  return {floorDivision(block.x(), blocks_per_axis), floorDivision(block.y(), blocks_per_axis),
+          floorDivision(block.z(), blocks_per_axis)};
+}
+
+// Calls visit(chunk, lends_only) for the block's chunk, and for those before it to whose far cells it lends
+// vertices.
+template <class Visit>
+void forEachOwner(const BlockIndex& block, int blocks_per_axis, const Visit& visit) {
+  const MeshChunkIndex own = chunkOf(block, blocks_per_axis);
+  int on_near_side = 0;
+  for (int axis = 0; axis < 3; ++axis) on_near_side |= (block[axis] == own[axis] * blocks_per_axis) << axis;
+  for (int sides = 0; sides < 8; ++sides) {
+    if ((sides & ~on_near_side) != 0) continue;
+    visit(MeshChunkIndex{own[0] - (sides & 1), own[1] - (sides >> 1 & 1), own[2] - (sides >> 2)}, sides != 0);
+  }
+}
+
+}  // namespace
+
+struct MeshChunks::Extraction {
+  MeshChunkIndex chunk;
+  std::vector<MeshBlock> blocks;
+};
+
+size_t MeshChunks::Hash::operator()(const MeshChunkIndex& chunk) const {
+  constexpr uint64_t kPrimes[3] = {73856093, 19349663, 83492791};
+  uint64_t hash = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    hash ^= static_cast<uint64_t>(static_cast<int64_t>(chunk[axis])) * kPrimes[axis];
+  return static_cast<size_t>(hash);
+}
+
+MeshChunks::MeshChunks(ComputeContext& compute, BlockSparseMap& map, const SurfaceMeshParameters& parameters,
+                       int blocks_per_axis)
+    : map_(map), blocks_per_axis_(blocks_per_axis) {
+  SurfaceMeshParameters checked = parameters;
+  validate(checked.table());
+  check(blocks_per_axis > 0, "a chunk of the mesh needs at least one block per axis");
+  kernels_ = std::make_unique<SurfaceMeshKernels>(compute, map, checked.min_certainty,
+                                                  static_cast<size_t>(checked.max_batch_blocks));
+}
+
+MeshChunks::~MeshChunks() = default;
+
+void MeshChunks::noteUpdated(const std::vector<int>& slots) {
+  for (const int slot : slots) noteAround(map_.blockOf(slot));
+}
+
+void MeshChunks::noteAll() {
+  for (const MeshChunkIndex& chunk : has_surface_) {
+    if (is_changed_.insert(chunk).second) changed_.push_back(chunk);
+  }
+  for (int slot = 0; slot < map_.slotBound(); ++slot) {
+    if (map_.inUse(slot)) noteAround(map_.blockOf(slot));
+  }
+}
+
+void MeshChunks::noteReset() {
+  changed_.clear();
+  is_changed_.clear();
+  has_surface_.clear();
+}
+
+void MeshChunks::noteAround(const BlockIndex& block) {
+  const MeshChunkIndex first = chunkOf(block - BlockIndex::Ones(), blocks_per_axis_);
+  const MeshChunkIndex last = chunkOf(block + BlockIndex::Ones(), blocks_per_axis_);
+  for (int z = first[2]; z <= last[2]; ++z) {
+    for (int y = first[1]; y <= last[1]; ++y) {
+      for (int x = first[0]; x <= last[0]; ++x) {
+        if (is_changed_.insert({x, y, z}).second) changed_.push_back({x, y, z});
+      }
+    }
+  }
+}
+
+std::vector<MeshChunk> MeshChunks::takeChanged(size_t max_count) {
+  std::vector<MeshChunk> chunks;
+  for (Extraction& extraction : takeExtractions(max_count)) {
+    TriangleMesh mesh = extract(extraction);
+    const bool had_surface = has_surface_.erase(extraction.chunk) > 0;
+    if (!mesh.triangles.empty()) has_surface_.insert(extraction.chunk);
+    if (had_surface || !mesh.triangles.empty()) chunks.push_back({extraction.chunk, std::move(mesh)});
+  }
+  return chunks;
+}
+
+std::vector<MeshChunks::Extraction> MeshChunks::takeExtractions(size_t max_count) {
+  std::vector<Extraction> extractions;
+  std::unordered_map<MeshChunkIndex, size_t, Hash> place;
+  while (!changed_.empty() && extractions.size() < max_count) {
+    place[changed_.front()] = extractions.size();
+    is_changed_.erase(changed_.front());
+    extractions.push_back({changed_.front(), {}});
+    changed_.pop_front();
+  }
+  for (int slot = 0; slot < map_.slotBound(); ++slot) {
+    if (!map_.inUse(slot)) continue;
+    const BlockIndex& block = map_.blockOf(slot);
+    forEachOwner(block, blocks_per_axis_, [&](const MeshChunkIndex& chunk, bool lends_only) {
+      const auto found = place.find(chunk);
+      if (found == place.end()) return;
+      MeshBlock mesh_block = meshBlock(map_, block);
+      mesh_block.lends_only = lends_only;
+      extractions[found->second].blocks.push_back(mesh_block);
+    });
+  }
+  return extractions;
+}
+
+TriangleMesh MeshChunks::extract(Extraction& extraction) {
+  sortAlongMortonCurve(extraction.blocks);
+  TriangleMesh mesh;
+  MeshSize size;
+  extractBlocks(*kernels_, map_, extraction.blocks, mesh, size);
+  return partOf(mesh, mesh.triangles);
+}
+
+size_t MeshChunks::deviceBytes() const { return kernels_->deviceBytes(); }
+
+}  // namespace depth_fusion

@@ -1,0 +1,38 @@
+// A file that appears when all of it is written.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace depth_fusion {
+
+// Writes PATH.part and renames it at the end; without commit() nothing is left of it, and what stood at the
+// path stays. Devices are written to directly. Errors name the path and the reason.
+class WholeFile {
+ public:
+  // Throws Error if the file cannot be created.
+  explicit WholeFile(const std::string& path);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void writeAt(uint64_t offset, const void* data, size_t bytes);
+  // The file's first bytes, which must have been written, in memory; later writes show there, too. Valid
+  // until the next call or commit().
+  const unsigned char* view(size_t bytes);
+  void cutTo(uint64_t bytes);
+  void commit();
+
+ private:
+  void unmap();
+  [[noreturn]] void fail(const std::string& action) const;
+
+  std::string path_;
+  std::string part_path_;  // empty for a device
+  int file_ = -1;
+  void* view_ = nullptr;
+  size_t view_bytes_ = 0;
+};
+
+}  // namespace depth_fusion

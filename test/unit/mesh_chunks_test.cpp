@@ -1,0 +1,326 @@
+#include "depth_fusion/surface_mesh/mesh_chunks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <set>
+
+#include "support/expect_error.h"
+#include "support/fusion_views.h"
+#include "support/surface_mesh_fixture.h"
+
+namespace depth_fusion {
+namespace {
+
+using ChunkIndices = std::set<MeshChunkIndex>;
+
+// A vertex with everything that belongs to it.
+struct Corner {
+  std::array<float, 6> vertex;
+  MeshColor color;
+  bool operator<(const Corner& other) const {
+    return std::tie(vertex, color) < std::tie(other.vertex, other.color);
+  }
+  bool operator==(const Corner& other) const { return vertex == other.vertex && color == other.color; }
+};
+using Triangles = std::vector<std::array<Corner, 3>>;
+
+Corner cornerOf(const TriangleMesh& mesh, uint32_t vertex) {
+  Corner corner{};
+  std::memcpy(corner.vertex.data(), &mesh.vertices.at(vertex), sizeof(MeshVertex));
+  if (!mesh.colors.empty()) corner.color = mesh.colors.at(vertex);
+  return corner;
+}
+
+void addTriangles(const TriangleMesh& mesh, Triangles& triangles) {
+  for (const MeshTriangle& t : mesh.triangles) {
+    std::array<Corner, 3> corners = {cornerOf(mesh, t[0]), cornerOf(mesh, t[1]), cornerOf(mesh, t[2])};
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    triangles.push_back(corners);
+  }
+}
+
+// What a viewer has that is told of the changes.
+class Viewer {
+ public:
+  // Returns the chunks that it was told of.
+  ChunkIndices follow(MeshChunks& chunks, size_t max_count = SIZE_MAX) {
+    ChunkIndices told;
+    for (MeshChunk& chunk : chunks.takeChanged(max_count)) {
+      EXPECT_TRUE(told.insert(chunk.index).second) << "told of twice";
+      if (chunk.mesh.triangles.empty()) {
+        EXPECT_EQ(meshes_.erase(chunk.index), 1u) << "is gone but was never there";
+      } else {
+        meshes_[chunk.index] = std::move(chunk.mesh);
+      }
+    }
+    return told;
+  }
+
+  ChunkIndices shown() const {
+    ChunkIndices indices;
+    for (const auto& entry : meshes_) indices.insert(entry.first);
+    return indices;
+  }
+
+  void expectTheWholeSurface(BlockSparseMap& map, const SurfaceMeshParameters& parameters = {}) const {
+    TriangleMesh whole;
+    exportSurfaceMesh(compute(), map, whole, parameters);
+    Triangles expected, seen;
+    addTriangles(whole, expected);
+    for (const auto& entry : meshes_) {
+      addTriangles(entry.second, seen);
+      expectNoUnusedVertex(entry.second);
+    }
+    std::sort(expected.begin(), expected.end());
+    std::sort(seen.begin(), seen.end());
+    EXPECT_EQ(seen.size(), expected.size());
+    EXPECT_TRUE(seen == expected);
+  }
+
+ private:
+  static void expectNoUnusedVertex(const TriangleMesh& mesh) {
+    std::vector<bool> used(mesh.vertices.size(), false);
+    for (const MeshTriangle& triangle : mesh.triangles) {
+      for (const uint32_t vertex : triangle) used.at(vertex) = true;
+    }
+    EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
+  }
+
+  std::map<MeshChunkIndex, TriangleMesh> meshes_;
+};
+
+SignedDistance nothing() {
+  return [](const Eigen::Vector3d&) { return 1.0; };
+}
+
+// A map that shows one surface after the other.
+class ChangingMap {
+ public:
+  explicit ChangingMap(const MapParameters& parameters)
+      : map(compute(), parameters),
+        first_(Eigen::Vector3i::Constant(-24 / parameters.block_size)),
+        count_(48 / parameters.block_size) {}
+
+  // Tells of the blocks that this releases, changes or creates, and of no others.
+  void show(const SignedDistance& distance, MeshChunks& chunks) {
+    const MapContent before = readMap(map);
+    chunks.noteUpdated(
+        release([&](const BlockSparseMap::BlockIndex& block) { return isEmpty(distance, block); }));
+    BlockSparseMap scratch(compute(), map.parameters());
+    fillMap(scratch, distance, first_, count_);
+    std::vector<BlockSparseMap::BlockIndex> created;
+    const MapContent after = readMap(scratch);
+    for (const auto& entry : after) {
+      if (before.count(entry.first) == 0) created.push_back(indexOf(entry.first));
+    }
+    map.allocate(created);
+    std::vector<int> changed;
+    for (const BlockSparseMap::Block& block : map.blocks()) {
+      const BlockContent& content = after.at(keyOf(block.index));
+      const auto old = before.find(keyOf(block.index));
+      if (old != before.end() && old->second == content) continue;
+      write(block.slot, content);
+      changed.push_back(block.slot);
+    }
+    chunks.noteUpdated(changed);
+  }
+
+  BlockSparseMap map;
+
+ private:
+  bool isEmpty(const SignedDistance& distance, const BlockSparseMap::BlockIndex& block) const {
+    const int m = map.parameters().block_size;
+    for (int v = 0; v < m * m * m; ++v) {
+      if (distanceByte(map.parameters(), distance, voxelOf(block, v, m)) != -128) return false;
+    }
+    return true;
+  }
+
+  template <class Condition>
+  std::vector<int> release(const Condition& condition) {
+    const int n = map.parameters().blocks_per_axis;
+    std::vector<int> offsets = map.offsets().read<int>(map.offsets().bytes() / sizeof(int));
+    std::vector<int> slots;
+    for (const BlockSparseMap::Block& block : map.blocks()) {
+      if (!condition(block.index)) continue;
+      slots.push_back(block.slot);
+      const Eigen::Vector3i wrapped = block.index.unaryExpr([n](int i) { return ((i % n) + n) % n; });
+      offsets[wrapped.x() + n * (wrapped.y() + n * wrapped.z())] = BLOCK_EMPTY;
+    }
+    map.offsets().write(offsets);
+    map.release(slots);
+    return slots;
+  }
+
+  void write(int slot, const BlockContent& content) {
+    const size_t voxels = content.distances.size();
+    map.voxels().write(content.distances.data(), voxels, 2 * voxels * slot);
+    map.voxels().write(content.certainties.data(), voxels, 2 * voxels * slot + voxels);
+  }
+
+  Eigen::Vector3i first_;
+  int count_;
+};
+
+class MeshChunksTest : public SurfaceMesh {};
+
+struct Sizes {
+  int block_size, blocks_per_chunk_axis;
+};
+
+class MeshChunksOfSize : public SurfaceMesh, public testing::WithParamInterface<Sizes> {};
+
+INSTANTIATE_TEST_SUITE_P(Sizes, MeshChunksOfSize,
+                         testing::Values(Sizes{4, 1}, Sizes{4, 3}, Sizes{8, 1}, Sizes{8, 2}, Sizes{8, 16},
+                                         Sizes{16, 1}));
+
+TEST_P(MeshChunksOfSize, areTheWholeSurfaceAfterEveryChange) {
+  MapParameters colored = parameters(GetParam().block_size, 32);
+  colored.color = true;
+  ChangingMap scene(colored);
+  std::vector<uint8_t> paint(scene.map.colors().bytes());
+  for (size_t i = 0; i < paint.size(); ++i)
+    paint[i] = static_cast<uint8_t>(i % 4 == 3 ? 9 : i * 2654435761u >> 13);
+  scene.map.colors().write(paint);
+  MeshChunks chunks(compute(), scene.map, {}, GetParam().blocks_per_chunk_axis);
+  Viewer viewer;
+  for (const SignedDistance& surface :
+       {sphere({0.001, 0.0, 0.0}, 0.07), sphere({0.004, 0.001, -0.002}, 0.0702),
+        sphere({0.02, -0.03, 0.01}, 0.05), sphere({-0.05, -0.05, -0.05}, 0.03), nothing(),
+        sphere({0.03, 0.03, 0.03}, 0.04)}) {
+    scene.show(surface, chunks);
+    viewer.follow(chunks);
+    viewer.expectTheWholeSurface(scene.map);
+  }
+  EXPECT_FALSE(viewer.shown().empty());
+}
+
+TEST_F(MeshChunksTest, smallBatchesGiveTheSame) {
+  ChangingMap scene(parameters(4));
+  SurfaceMeshParameters small;
+  small.max_batch_blocks = 9;
+  MeshChunks chunks(compute(), scene.map, small, 8);
+  Viewer viewer;
+  scene.show(sphere({0.001, 0.0, 0.0}, 0.07), chunks);
+  viewer.follow(chunks);
+  viewer.expectTheWholeSurface(scene.map);
+}
+
+TEST_F(MeshChunksTest, surfaceThatIsGoneIsReportedOnce) {
+  ChangingMap scene(parameters(8));
+  MeshChunks chunks(compute(), scene.map, {}, 2);
+  Viewer viewer;
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), chunks);
+  viewer.follow(chunks);
+  const ChunkIndices shown = viewer.shown();
+  EXPECT_GT(shown.size(), 7u);
+  scene.show(nothing(), chunks);
+  EXPECT_EQ(viewer.follow(chunks), shown);
+  EXPECT_TRUE(viewer.shown().empty());
+  EXPECT_TRUE(viewer.follow(chunks).empty());
+}
+
+TEST_F(MeshChunksTest, onlyThoseThatChangedAreReported) {
+  ChangingMap scene(parameters(8));
+  MeshChunks chunks(compute(), scene.map, {}, 2);
+  Viewer viewer;
+  const SignedDistance ball = sphere({0.0, 0.0, 0.0}, 0.07);
+  const SignedDistance wart = sphere({0.07, 0.02, 0.02}, 0.006);
+  scene.show(ball, chunks);
+  EXPECT_GT(viewer.follow(chunks).size(), 7u);
+  EXPECT_TRUE(viewer.follow(chunks).empty());
+  scene.show([&](const Eigen::Vector3d& p) { return std::min(ball(p), wart(p)); }, chunks);
+  // Blocks of 4 cm: the wart's truncation band lies in x from 4 to 12 cm, and in y and z from -4 to 4 cm.
+  for (const MeshChunkIndex& index : viewer.follow(chunks)) {
+    EXPECT_TRUE(index[0] == 0 || index[0] == 1) << index[0];
+    EXPECT_TRUE(index[1] >= -1 && index[1] <= 0 && index[2] >= -1 && index[2] <= 0)
+        << index[1] << " " << index[2];
+  }
+  viewer.expectTheWholeSurface(scene.map);
+}
+
+TEST_F(MeshChunksTest, oldestChangeComesFirst) {
+  ChangingMap scene(parameters(8));
+  MeshChunks chunks(compute(), scene.map, {}, 2);
+  Viewer viewer;
+  scene.show(sphere({-0.08, -0.08, -0.08}, 0.03), chunks);
+  const size_t first = chunks.changedCount();
+  const ChunkIndices near_first = [&] {
+    MeshChunks others(compute(), scene.map, {}, 2);
+    others.noteAll();
+    return Viewer().follow(others);
+  }();
+  const SignedDistance both = [](const Eigen::Vector3d& p) {
+    return std::min(sphere({-0.08, -0.08, -0.08}, 0.03)(p), sphere({0.08, 0.08, 0.08}, 0.03)(p));
+  };
+  scene.show(both, chunks);
+  EXPECT_EQ(viewer.follow(chunks, first), near_first);
+  EXPECT_FALSE(near_first.empty());
+  while (chunks.changedCount() > 0) {
+    const size_t before = chunks.changedCount();
+    viewer.follow(chunks, 2);
+    EXPECT_EQ(before - chunks.changedCount(), std::min<size_t>(before, 2));
+  }
+  viewer.expectTheWholeSurface(scene.map);
+}
+
+TEST_F(MeshChunksTest, allAreReportedAgainToALateReader) {
+  ChangingMap scene(parameters(8));
+  MeshChunks chunks(compute(), scene.map, {}, 2);
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), chunks);
+  chunks.takeChanged(1000);
+  chunks.noteAll();
+  Viewer late;
+  late.follow(chunks);
+  late.expectTheWholeSurface(scene.map);
+}
+
+TEST_F(MeshChunksTest, resetForgetsThem) {
+  ChangingMap scene(parameters(8));
+  MeshChunks chunks(compute(), scene.map, {}, 2);
+  Viewer viewer;
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), chunks);
+  viewer.follow(chunks, 3);
+  scene.map.reset({0.0, 0.0, 0.0});
+  chunks.noteReset();
+  EXPECT_EQ(chunks.changedCount(), 0u);
+  EXPECT_TRUE(chunks.takeChanged(1000).empty());
+  Viewer fresh;
+  scene.show(sphere({0.03, 0.03, 0.03}, 0.04), chunks);
+  fresh.follow(chunks);
+  fresh.expectTheWholeSurface(scene.map);
+}
+
+TEST_F(MeshChunksTest, parametersOutOfRangeAreErrors) {
+  BlockSparseMap map(compute(), parameters(8));
+  expectError([&] { MeshChunks(compute(), map, {}, 0); }, {"at least one block"});
+  SurfaceMeshParameters wrong;
+  wrong.min_certainty = 256;
+  expectError([&] { MeshChunks(compute(), map, wrong); }, {"min_certainty"});
+}
+
+// Fusion of a bumpy wall from several places, which is then taken away: free space is carved, and blocks are
+// released.
+TEST(MeshChunksOfFusion, followEveryFrame) {
+  BlockSparseMap map(compute(), mapParameters());
+  TsdfFusion fusion(compute(), map, {});
+  MeshChunks chunks(compute(), map, {}, 4);
+  Viewer viewer;
+  size_t released = 0;
+  for (int frame = 0; frame < 14; ++frame) {
+    const cv::Mat depth = frame < 5 ? bumpyDepth(1.2) : wallDepth(1.9);
+    const FusionResult result = integrate(fusion, viewOf(depth, somePose(0.1 * (frame % 3))));
+    released += result.blocks_released;
+    chunks.noteUpdated(fusion.visibleBlocks().read<int>(result.blocks_updated));
+    viewer.follow(chunks);
+    viewer.expectTheWholeSurface(map);
+  }
+  EXPECT_GT(released, 20u);
+  EXPECT_FALSE(viewer.shown().empty());
+}
+
+}  // namespace
+}  // namespace depth_fusion
