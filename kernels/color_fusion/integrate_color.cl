@@ -132,7 +132,7 @@ __kernel void integrate_color(__global uint *colors, __global const char *voxels
     const vuint p11 = GATHER(vuint, image, corner + camera.pitch + 1);
     const vfloat fu = aligned.u - TO_VFLOAT(u0);
     const vfloat fv = aligned.v - TO_VFLOAT(v0);
-    const vuint phase = dither_phase(first, block, args.frame) + AS_VUINT(LANE_INDICES) * 0x9e3779b9u;
+    const vuint phase = dither_phase(first, block, args.frame) + AS_VUINT(LANE_INDICES) * DITHER_STEP;
     const vfloat random = TO_VFLOAT(AS_VINT(phase >> 8)) * (1.0f / 16777216.0f);
     vuint fused = averaged(old, 0, args.exposure_gain[0] * between(p00, p10, p01, p11, 0, fu, fv), gain, random);
     fused |= averaged(old, 8, args.exposure_gain[1] * between(p00, p10, p01, p11, 8, fu, fv), gain, random);

@@ -1,18 +1,15 @@
-// How kernels over whole blocks share out the voxels: a work-item has one slice of a block, one voxel on a GPU. And the
-// phase of a voxel's dither.
+// How kernels over whole blocks share out the voxels, and the phase of a voxel's dither.
 #include "shared/block_map.h"
 
-#if SIMD_WIDTH == 1
-#define ITEM_VOXELS 1
-#else
-#define ITEM_VOXELS (BLOCK_SIZE * BLOCK_SIZE)
-#endif
+#define ITEM_VOXELS VOXELS_PER_ITEM(SIMD_WIDTH, BLOCK_SIZE)
 #define ITEMS_PER_BLOCK (BLOCK_VOXELS / ITEM_VOXELS)
 
+#define DITHER_STEP 0x9e3779b9u
+
 // Phase of a voxel's dither: spread by a hash over the blocks, by the golden ratio along a block's voxels and over the
-// frames, so that the rounding errors of one voxel cancel over the frames faster than independent draws would.
+// frames by DITHER_STEP, so that the rounding errors of one voxel cancel over the frames faster than independent draws would.
 inline uint dither_phase(int voxel, int3 block, int frame) {
   uint hash = (uint)(block.x * 73856093 ^ block.y * 19349669 ^ block.z * 83492791);
   hash = (hash ^ (hash >> 15)) * 0x85ebca6bu;
-  return hash + (uint)(voxel + frame) * 0x9e3779b9u;
+  return hash + (uint)(voxel + frame) * DITHER_STEP;
 }

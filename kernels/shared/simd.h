@@ -4,6 +4,9 @@
 #define SIMD_WIDTH 1
 #endif
 
+// A vector of global memory whose address is a multiple of its size. vload and vstore assume less: PoCL stores bytes one by one.
+#define ALIGNED(type, pointer) (*(__global type *)(pointer))
+
 #define SIMD_JOIN_(a, b) a##b
 #define SIMD_JOIN(a, b) SIMD_JOIN_(a, b)
 
@@ -21,6 +24,7 @@ typedef uchar vuchar;
 #define TO_VUCHAR(x) convert_uchar(x)
 #define AS_VINT(x) as_int(x)
 #define AS_VUINT(x) as_uint(x)
+#define AS_VUCHAR(x) as_uchar(x)
 #define AS_VFLOAT(x) as_float(x)
 #define TO_VMASK8(mask) convert_char(mask)
 #define ANY(mask) ((mask) != 0)
@@ -42,6 +46,7 @@ typedef SIMD_JOIN(uchar, SIMD_WIDTH) vuchar;
 #define TO_VUCHAR(x) SIMD_JOIN(convert_uchar, SIMD_WIDTH)(x)
 #define AS_VINT(x) SIMD_JOIN(as_int, SIMD_WIDTH)(x)
 #define AS_VUINT(x) SIMD_JOIN(as_uint, SIMD_WIDTH)(x)
+#define AS_VUCHAR(x) SIMD_JOIN(as_uchar, SIMD_WIDTH)(x)
 #define AS_VFLOAT(x) SIMD_JOIN(as_float, SIMD_WIDTH)(x)
 #define TO_VMASK8(mask) SIMD_JOIN(convert_char, SIMD_WIDTH)(mask)
 #define ANY(mask) any_lane(mask)

@@ -13,6 +13,10 @@
 #define BLOCK_HAS_DATA 1       // some voxel is not chi
 #define BLOCK_NEAR_SURFACE 2   // some voxel lies within a voxel's diagonal of the surface
 
+// Voxels that a work-item of the kernels over whole blocks takes: one on a GPU; on a CPU a block, or a large block's slice.
+#define VOXELS_PER_ITEM(simd_width, block_size) \
+  ((simd_width) == 1 ? 1 : (block_size) > 8 ? (block_size) * (block_size) : (block_size) * (block_size) * (block_size))
+
 // A voxel's second byte says how sure its distance is, 1 to 255: the number of measurements, their weight, or by the
 // Kalman filter a code of the variance. The code's scale is that of a float's bits, logarithmic but for straight lines
 // between the powers of two: 1 stands for a standard deviation of 50 mm, 255 for 0.05 mm.

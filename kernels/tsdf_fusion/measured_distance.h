@@ -2,16 +2,12 @@
 // DISTANCE_REFINED (see types.h).
 #include "shared/image.h"
 #include "shared/measurement.h"
+#include "tsdf_fusion/block_projection.h"
 #ifndef FUSION_DISTANCE
 #define FUSION_DISTANCE DISTANCE_PLANE
 #endif
 #define GRADIENT_STEPS 2
 #define MAX_REFINED_RANGE 2.0f  // truncations along the ray; farther points stay projective
-
-// Points in frame D, one a lane.
-typedef struct {
-  vfloat x, y, z;
-} Points;
 
 typedef struct {
   vfloat distance_m;

@@ -19,7 +19,7 @@ int footprint(const CameraIntrinsics& camera, const CameraIntrinsics& color_came
 
 ColorFusion::Kernels::Kernels(ComputeContext& compute, const MapParameters& map)
     : simd_width_(compute.impl().simd_width),
-      items_per_block_(simd_width_ == 1 ? map.block_size * map.block_size * map.block_size : map.block_size),
+      items_per_block_(itemsPerBlock(map, simd_width_)),
       splat_(compute, "color_fusion/color_depth.cl", "splat_depth"),
       drop_unset_(compute, "color_fusion/color_depth.cl", "drop_unset_depth"),
       rate_(compute, "color_fusion/color_depth.cl", "rate_pixels"),

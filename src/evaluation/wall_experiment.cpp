@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr CameraIntrinsics kCamera{128, 96, 250.0, 250.0, 63.5, 47.5};
 constexpr double kBorder_m = 0.03;
+constexpr double kOnEdge_vox = 1e-3;
 
 PipelineParameters pipelineParameters(const WallExperiment& experiment, const FusionParameters& fusion) {
   PipelineParameters parameters;
@@ -32,7 +34,7 @@ RgbdFrame frameOf(const WallExperiment& experiment, int number) {
   RgbdFrame frame;
   frame.intrinsics = kCamera;
   frame.depth = cv::Mat(kCamera.height, kCamera.width, CV_32FC1);
-  cv::RNG random(static_cast<uint64_t>(number) + 1);
+  cv::RNG random(static_cast<uint64_t>(experiment.seed * experiment.frames + number) + 1);
   random.fill(frame.depth, cv::RNG::NORMAL, wall.z_m, wall.sigma_m);
   if (experiment.told_of_noise) {
     const double weight = std::min(1.0, std::pow(experiment.first_sigma_m / wall.sigma_m, 2));
@@ -41,21 +43,38 @@ RgbdFrame frameOf(const WallExperiment& experiment, int number) {
   return frame;
 }
 
-WallError errorOf(const TriangleMesh& mesh, double z_m) {
+// Errors of the zero crossings nearest to the wall, by the column's place. Vertices on edges along z lie in a
+// column.
+std::map<std::pair<int, int>, double> columnErrors(const TriangleMesh& mesh, double z_m,
+                                                   double voxel_size_m) {
   const double half_width_m = 0.5 * kCamera.width / kCamera.fx * z_m - kBorder_m;
   const double half_height_m = 0.5 * kCamera.height / kCamera.fy * z_m - kBorder_m;
-  double sum = 0.0, squares = 0.0;
-  size_t count = 0;
+  std::map<std::pair<int, int>, double> errors;
   for (const MeshVertex& vertex : mesh.vertices) {
     const Eigen::Vector3f& p = vertex.position_W;
     if (std::abs(p.x()) > half_width_m || std::abs(p.y()) > half_height_m) continue;
+    const double i = p.x() / voxel_size_m, j = p.y() / voxel_size_m;
+    if (std::abs(i - std::round(i)) > kOnEdge_vox || std::abs(j - std::round(j)) > kOnEdge_vox) continue;
     const double error_m = p.z() - z_m;
-    sum += error_m;
-    squares += error_m * error_m;
-    ++count;
+    const auto [column, is_new] =
+        errors.try_emplace({static_cast<int>(std::round(i)), static_cast<int>(std::round(j))}, error_m);
+    if (!is_new && std::abs(error_m) < std::abs(column->second)) column->second = error_m;
   }
-  check(count > 0, "the wall has no mesh; is its noise above map/truncation_m?");
-  return {sum / static_cast<double>(count), std::sqrt(squares / static_cast<double>(count))};
+  return errors;
+}
+
+WallError errorOf(const TriangleMesh& mesh, double z_m, double voxel_size_m) {
+  WallError result;
+  double squares = 0.0;
+  for (const auto& [column, error_m] : columnErrors(mesh, z_m, voxel_size_m)) {
+    result.mean_m += error_m;
+    squares += error_m * error_m;
+    ++result.columns;
+  }
+  check(result.columns > 0, "the wall has no mesh; is its noise above map/truncation_m?");
+  result.mean_m /= static_cast<double>(result.columns);
+  result.rms_m = std::sqrt(squares / static_cast<double>(result.columns));
+  return result;
 }
 
 }  // namespace
@@ -66,11 +85,25 @@ std::vector<WallError> runWallExperiment(ComputeContext& compute, const WallExpe
   std::vector<WallError> errors;
   for (int i = 0; i < experiment.frames; ++i) {
     pipeline.processFrame(frameOf(experiment, i), Pose::Identity());
+    if (i < experiment.first_measured_frame) continue;
     TriangleMesh mesh;
     exportSurfaceMesh(compute, pipeline.map(), mesh);
-    errors.push_back(errorOf(mesh, experiment.frame_at(i).z_m));
+    errors.push_back(errorOf(mesh, experiment.frame_at(i).z_m, experiment.voxel_size_m));
   }
   return errors;
+}
+
+WallExperiment growingNoise() {
+  const auto sigmaAt = [](double z_m) {
+    const DepthSensorParameters sensor;
+    return sensor.sigma_base_m + sensor.sigma_growth_per_m * std::pow(z_m - sensor.sigma_from_m, 2);
+  };
+  WallExperiment experiment;
+  experiment.first_sigma_m = sigmaAt(1.0);
+  experiment.frame_at = [sigmaAt, last = experiment.frames - 1](int frame) {
+    return WallFrame{1.0, sigmaAt(1.0 + static_cast<double>(frame) / last)};
+  };
+  return experiment;
 }
 
 double rootMeanSquare(const std::vector<WallError>& errors, size_t first) {

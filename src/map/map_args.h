@@ -21,6 +21,11 @@ inline bool before(const BlockSparseMap::BlockIndex& a, const BlockSparseMap::Bl
 
 GridArgs gridArgs(const BlockSparseMap& map);
 
+// Work-items a block of the kernels that include shared/block_items.h.
+inline size_t itemsPerBlock(const MapParameters& map, int simd_width) {
+  return map.block_size * map.block_size * map.block_size / VOXELS_PER_ITEM(simd_width, map.block_size);
+}
+
 // Build options of the programs that include shared/block_map.h.
 std::string blockSizeOption(const MapParameters& parameters);
 

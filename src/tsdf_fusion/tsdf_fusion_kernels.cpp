@@ -26,8 +26,7 @@ std::string ruleOptions(const FusionParameters& parameters) {
 
 TsdfFusion::Kernels::Kernels(ComputeContext& compute, const MapParameters& map,
                              const FusionParameters& parameters)
-    : items_per_block_(compute.impl().simd_width == 1 ? map.block_size * map.block_size * map.block_size
-                                                      : map.block_size),
+    : items_per_block_(itemsPerBlock(map, compute.impl().simd_width)),
       request_(compute, "tsdf_fusion/select_blocks.cl", "request_blocks", blockSizeOption(map)),
       visible_(compute, "tsdf_fusion/select_blocks.cl", "list_visible_blocks", blockSizeOption(map)),
       integrate_(compute, "tsdf_fusion/integrate_blocks.cl", "integrate_blocks",

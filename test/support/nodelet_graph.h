@@ -17,6 +17,7 @@
 
 #include "depth_fusion/simulation/simulated_recording.h"
 #include "ros/messages.h"
+#include "support/simulated_frames.h"
 
 namespace depth_fusion {
 
@@ -104,7 +105,7 @@ class NodeletGraph {
  private:
   ros::NodeHandle handle_;
   ros::AsyncSpinner spinner_;
-  nodelet::Loader loader_{true};
+  nodelet::Loader loader_{false};
 };
 
 // Frames of the simulated room at a quarter of the usual pixels.
@@ -125,8 +126,11 @@ class FakeCamera {
         color_(handle.advertise<sensor_msgs::Image>("rgb/image", 10)),
         color_info_(handle.advertise<sensor_msgs::CameraInfo>("rgb/camera_info", 10)) {}
 
-  bool awaitSubscribers(uint32_t count = 1) const {
-    return eventually([&] { return depth_.getNumSubscribers() >= count && depth_info_.getNumSubscribers() >= count; });
+  bool awaitSubscribers() const {
+    return eventually([&] {
+      return depth_.getNumSubscribers() > 0 && depth_info_.getNumSubscribers() > 0 && color_.getNumSubscribers() > 0 &&
+             color_info_.getNumSubscribers() > 0;
+    });
   }
 
   std_msgs::Header headerOf(const RgbdFrame& frame) const { return makeHeader(toRosTime(frame.stamp_s), frame_id_); }

@@ -1,5 +1,5 @@
-// The filters of fusion on a flat wall with noise of one's choice, through the whole pipeline: each pixel is
-// a filter's history of its own.
+// The filters of fusion on a flat wall with noise of one's choice, through the whole pipeline: each column of
+// voxels along the view is a filter's history of its own.
 #pragma once
 
 #include <functional>
@@ -19,19 +19,27 @@ struct WallFrame {
 struct WallExperiment {
   std::function<WallFrame(int)> frame_at;
   int frames = 200;
+  int first_measured_frame = 0;  // errors are measured from here on
+  int seed = 0;
   double first_sigma_m = 0.0019;
   bool told_of_noise = false;
   float voxel_size_m = 0.004f;
 };
 
+// Of the columns' zero crossings, each the one nearest to the wall, so that stray surfaces do not count.
 struct WallError {
-  double mean_m = 0.0;  // of the mesh's vertices, away from the sensor
+  double mean_m = 0.0;  // away from the sensor
   double rms_m = 0.0;
+  size_t columns = 0;  // with a zero crossing
 };
 
-// The error of the surface after each frame.
+// The error of the surface after each measured frame.
 std::vector<WallError> runWallExperiment(ComputeContext& compute, const WallExperiment& experiment,
                                          const FusionParameters& fusion);
+
+// The paper's case of growing noise: that of the default sensor model at a distance that grows evenly from 1
+// to 2 m.
+WallExperiment growingNoise();
 
 // Root of the mean square of the errors of the frames from `first` on.
 double rootMeanSquare(const std::vector<WallError>& errors, size_t first);

@@ -14,9 +14,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kFirstSigma_m = 0.0012;  // of a Kinect at 0.4 m
-constexpr double kSigma_m = 0.0019;       // at 1 m
-constexpr double kLastSigma_m = 0.0061;   // at 2 m
+constexpr double kSigma_m = 0.0019;  // of a Kinect at 1 m
 constexpr int kFrames = 200;
 constexpr int kTail = 50;
 const std::vector<std::string> kRules = {"average", "weighted", "kalman"};
@@ -48,29 +46,26 @@ PlotLine lineOf(const std::string& name, const std::vector<WallError>& errors) {
   return line;
 }
 
-// Filters of the same gain while the noise grows as if the sensor went from 0.4 m to 2 m. The Kalman filter is
-// told.
-void growingNoise(ComputeContext& compute, const std::string& folder) {
-  WallExperiment experiment;
-  experiment.frames = kFrames;
-  experiment.first_sigma_m = kFirstSigma_m;
-  experiment.frame_at = [](int frame) {
-    return WallFrame{1.0, kFirstSigma_m + (kLastSigma_m - kFirstSigma_m) * frame / kFrames};
-  };
+PlotLine underGrowingNoise(ComputeContext& compute, const std::string& name, const std::string& rule,
+                           bool told) {
+  WallExperiment experiment = growingNoise();
+  experiment.told_of_noise = told;
+  const auto errors =
+      runWallExperiment(compute, experiment, filterOfGain(rule, 0.05, experiment.first_sigma_m));
+  std::printf("growing noise, %-14s last %d frames %.3f mm, last %d %.3f mm\n", name.c_str(),
+              experiment.frames / 10, 1000.0 * rootMeanSquare(errors, errors.size() - experiment.frames / 10),
+              kTail, 1000.0 * rootMeanSquare(errors, errors.size() - kTail));
+  return lineOf(name, errors);
+}
+
+// Filters of the same gain at first. The Kalman filter is told of the noise.
+void compareUnderGrowingNoise(ComputeContext& compute, const std::string& folder) {
   LinePlot plot{
-      "noise grows from 1.2 to 6.1 mm; all filters begin with a gain of 0.05", "frame", "RMS error [mm]", {}};
+      "noise grows from 1.9 to 6.1 mm; all filters begin with a gain of 0.05", "frame", "RMS error [mm]", {}};
   for (const std::string& rule : kRules) {
-    experiment.told_of_noise = rule == "kalman";
-    const auto errors = runWallExperiment(compute, experiment, filterOfGain(rule, 0.05, kFirstSigma_m));
-    std::printf("growing noise, %-8s last 10 frames %.3f mm\n", rule.c_str(),
-                1000.0 * rootMeanSquare(errors, errors.size() - 10));
-    plot.lines.push_back(lineOf(rule, errors));
+    plot.lines.push_back(underGrowingNoise(compute, rule, rule, rule == "kalman"));
   }
-  experiment.told_of_noise = true;
-  const auto errors = runWallExperiment(compute, experiment, filterOfGain("weighted", 0.05, kFirstSigma_m));
-  std::printf("growing noise, weighted, told of the noise: last 10 frames %.3f mm\n",
-              1000.0 * rootMeanSquare(errors, errors.size() - 10));
-  plot.lines.push_back(lineOf("weighted, told", errors));
+  plot.lines.push_back(underGrowingNoise(compute, "weighted, told", "weighted", true));
   write(folder, "filters_growing_noise", plot);
 }
 
@@ -114,7 +109,7 @@ void addFiltersBenchmark(CLI::App& app) {
   filters->callback([arguments] {
     std::filesystem::create_directories(arguments->output);
     ComputeContext compute(arguments->device);
-    growingNoise(compute, arguments->output);
+    compareUnderGrowingNoise(compute, arguments->output);
     qualityAgainstResponse(compute, arguments->output);
   });
 }
