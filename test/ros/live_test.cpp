@@ -130,8 +130,8 @@ TEST_F(Live, PosesGoOutAsMessagesAndOverTf) {
   EXPECT_EQ(pose->header.frame_id, "map_poses");
   EXPECT_GT(pose->pose.covariance[0], 0.0);
 
-  const auto transform =
-      buffer.lookupTransform("map_poses", "camera_rgb_optical_frame", stamp, ros::Duration(kPatience_s));
+  ASSERT_TRUE(eventually([&] { return buffer.canTransform("map_poses", "camera_rgb_optical_frame", stamp); }));
+  const auto transform = buffer.lookupTransform("map_poses", "camera_rgb_optical_frame", stamp);
   expectPose(fromMessage(transform.transform), poseOf(pose->pose.pose), 1e-9, 1e-7);
 
   // Level at the start: the optical axis is x of the map, and y points down.

@@ -23,6 +23,7 @@ class IcpTrackingNodelet : public StageNodelet {
 
  private:
   struct Skipped {
+    uint32_t clock_jumps;
     double stamp_s;
     TextureOdometryResult motion;
   };
@@ -40,11 +41,12 @@ class IcpTrackingNodelet : public StageNodelet {
   void receiveView(const MapViewMessage::ConstPtr& view);
 
   // In the worker's thread:
-  void process(const TexturedFramePtr& frame);
+  void process(const TexturedFramePtr& waiting);
   void prepare(const CameraIntrinsics& camera);
-  // What has happened since the last frame: fusion's answer to it, resets, frames skipped, a clock set back.
-  void catchUp(const TexturedFrame& frame);
+  // Fusion's answer to the last frame, and whatever else it had to say.
   void awaitAnswer();
+  // A clock set back, frames skipped before this one.
+  void catchUp(const SensorFrame& frame);
   void apply(const MapViewMessage& view);
   TrackingResult track(const TexturedFramePtr& frame, StageTimers& timers);
   void send(const TexturedFramePtr& frame, const TrackingResult& result);
@@ -116,7 +118,7 @@ void IcpTrackingNodelet::start() {
       [this](const TexturedFramePtr& frame) {
         counter_.drop("too slow");
         const std::lock_guard<std::mutex> lock(mutex_);
-        skipped_.push_back({frame->sensor->rgbd.stamp_s, frame->motion});
+        skipped_.push_back({frame->sensor->clock_jumps, frame->sensor->rgbd.stamp_s, frame->motion});
       });
   view_subscriber_ = handle.subscribe<MapViewMessage>("tsdf_fusion/model_view", 100,
                                                       &IcpTrackingNodelet::receiveView, this);
@@ -175,12 +177,15 @@ void IcpTrackingNodelet::receiveView(const MapViewMessage::ConstPtr& view) {
   changed_.notify_all();
 }
 
-void IcpTrackingNodelet::process(const TexturedFramePtr& frame) {
+void IcpTrackingNodelet::process(const TexturedFramePtr& waiting) {
   StageTimers timers;
-  TrackingResult result;
   try {
+    if (tracker_ == nullptr) prepare(waiting->sensor->rgbd.intrinsics);
+    awaitAnswer();
+    const TexturedFramePtr frame = worker_->nextIfFull(waiting);
     prepare(frame->sensor->rgbd.intrinsics);
-    catchUp(*frame);
+    catchUp(*frame->sensor);
+    TrackingResult result;
     if (mode_ == MapMode::kPaused) {
       tracker_->reject();
       result.reason = "paused";
@@ -198,30 +203,34 @@ void IcpTrackingNodelet::process(const TexturedFramePtr& frame) {
 
 void IcpTrackingNodelet::prepare(const CameraIntrinsics& camera) {
   if (tracker_ != nullptr && sameCamera(camera, camera_)) return;
-  if (tracker_ != nullptr) NODELET_WARN("the camera's intrinsics have changed; tracking begins again");
+  if (tracker_ != nullptr) NODELET_WARN("the camera's intrinsics have changed; the sensor is searched for in the map");
   compute_ = sharedCompute(device_);
   NODELET_INFO_STREAM("OpenCL device: " << compute_->selfTestReport());
   renderer_.reset();
   tracker_ = std::make_unique<FrameTracker>(*compute_, parameters_, camera,
                                             [this](const Pose& T_W_D) -> const ModelView& { return render(T_W_D); });
   camera_ = camera;
+  if (view_ != nullptr) tracker_->expectAt(view_->T_W_D);
 }
 
-void IcpTrackingNodelet::catchUp(const TexturedFrame& frame) {
-  awaitAnswer();
-  if (frame.sensor->clock_jumps != std::exchange(clock_jumps_, frame.sensor->clock_jumps)) {
+void IcpTrackingNodelet::catchUp(const SensorFrame& frame) {
+  if (frame.clock_jumps != std::exchange(clock_jumps_, frame.clock_jumps)) {
     tracker_->reject();
     if (on_clock_jump_ == "reset") {
       forgetMap();
       begins_map_ = true;
     }
   }
-  std::vector<Skipped> skipped;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    skipped.swap(skipped_);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<Skipped> later;
+  for (const Skipped& skipped : skipped_) {
+    if (skipped.clock_jumps > frame.clock_jumps || skipped.stamp_s > frame.rgbd.stamp_s) {
+      later.push_back(skipped);
+    } else if (skipped.clock_jumps == frame.clock_jumps) {
+      tracker_->skip(skipped.stamp_s, skipped.motion);
+    }
   }
-  for (const Skipped& old : skipped) tracker_->skip(old.stamp_s, old.motion);
+  skipped_.swap(later);
 }
 
 void IcpTrackingNodelet::awaitAnswer() {

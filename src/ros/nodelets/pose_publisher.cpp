@@ -9,6 +9,7 @@ namespace depth_fusion {
 namespace {
 
 constexpr double kTransformTimeout_s = 0.1;
+constexpr double kTransformPoll_s = 0.002;
 constexpr double kPathStep_m = 0.02;
 constexpr double kPathStep_rad = 0.05;
 constexpr size_t kMaxPath = 5000;
@@ -62,9 +63,12 @@ void PosePublisher::findRoot(const std::string& camera_frame) {
 
 Pose PosePublisher::rootToCamera(const std_msgs::Header& camera) const {
   if (root_ == camera.frame_id) return Pose::Identity();
+  // By the wall's clock: a simulated one may stand still.
+  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(kTransformTimeout_s);
+  while (!buffer_.canTransform(root_, camera.frame_id, camera.stamp) && ros::WallTime::now() < give_up)
+    ros::WallDuration(kTransformPoll_s).sleep();
   try {
-    return fromMessage(
-        buffer_.lookupTransform(root_, camera.frame_id, camera.stamp, ros::Duration(kTransformTimeout_s)).transform);
+    return fromMessage(buffer_.lookupTransform(root_, camera.frame_id, camera.stamp).transform);
   } catch (const tf2::TransformException& error) {
     throw Error(std::string("tf: ") + error.what());
   }

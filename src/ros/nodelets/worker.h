@@ -38,6 +38,19 @@ class Worker {
     for (const Item& old : dropped) drop_(old);
   }
 
+  // For work that had to wait for something else: if meanwhile as many wait as can, the item at work is dropped for the next.
+  Item nextIfFull(const Item& at_work) {
+    Item next = at_work;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (items_.size() < capacity_) return next;
+      next = items_.front();
+      items_.pop_front();
+    }
+    drop_(at_work);
+    return next;
+  }
+
   void clear() {
     std::deque<Item> dropped;
     {
