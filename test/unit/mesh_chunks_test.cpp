@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "support/changing_map.h"
 #include "support/expect_error.h"
 #include "support/fusion_views.h"
 #include "support/surface_mesh_fixture.h"
@@ -92,79 +93,6 @@ class Viewer {
   std::map<MeshChunkIndex, TriangleMesh> meshes_;
 };
 
-SignedDistance nothing() {
-  return [](const Eigen::Vector3d&) { return 1.0; };
-}
-
-// A map that shows one surface after the other.
-class ChangingMap {
- public:
-  explicit ChangingMap(const MapParameters& parameters)
-      : map(compute(), parameters),
-        first_(Eigen::Vector3i::Constant(-24 / parameters.block_size)),
-        count_(48 / parameters.block_size) {}
-
-  // Tells of the blocks that this releases, changes or creates, and of no others.
-  void show(const SignedDistance& distance, MeshChunks& chunks) {
-    const MapContent before = readMap(map);
-    chunks.noteUpdated(
-        release([&](const BlockSparseMap::BlockIndex& block) { return isEmpty(distance, block); }));
-    BlockSparseMap scratch(compute(), map.parameters());
-    fillMap(scratch, distance, first_, count_);
-    std::vector<BlockSparseMap::BlockIndex> created;
-    const MapContent after = readMap(scratch);
-    for (const auto& entry : after) {
-      if (before.count(entry.first) == 0) created.push_back(indexOf(entry.first));
-    }
-    map.allocate(created);
-    std::vector<int> changed;
-    for (const BlockSparseMap::Block& block : map.blocks()) {
-      const BlockContent& content = after.at(keyOf(block.index));
-      const auto old = before.find(keyOf(block.index));
-      if (old != before.end() && old->second == content) continue;
-      write(block.slot, content);
-      changed.push_back(block.slot);
-    }
-    chunks.noteUpdated(changed);
-  }
-
-  BlockSparseMap map;
-
- private:
-  bool isEmpty(const SignedDistance& distance, const BlockSparseMap::BlockIndex& block) const {
-    const int m = map.parameters().block_size;
-    for (int v = 0; v < m * m * m; ++v) {
-      if (distanceByte(map.parameters(), distance, voxelOf(block, v, m)) != -128) return false;
-    }
-    return true;
-  }
-
-  template <class Condition>
-  std::vector<int> release(const Condition& condition) {
-    const int n = map.parameters().blocks_per_axis;
-    std::vector<int> offsets = map.offsets().read<int>(map.offsets().bytes() / sizeof(int));
-    std::vector<int> slots;
-    for (const BlockSparseMap::Block& block : map.blocks()) {
-      if (!condition(block.index)) continue;
-      slots.push_back(block.slot);
-      const Eigen::Vector3i wrapped = block.index.unaryExpr([n](int i) { return ((i % n) + n) % n; });
-      offsets[wrapped.x() + n * (wrapped.y() + n * wrapped.z())] = BLOCK_EMPTY;
-    }
-    map.offsets().write(offsets);
-    map.release(slots);
-    return slots;
-  }
-
-  void write(int slot, const BlockContent& content) {
-    const size_t voxels = content.distances.size();
-    map.voxels().write(content.distances.data(), voxels, 2 * voxels * slot);
-    map.voxels().write(content.certainties.data(), voxels, 2 * voxels * slot + voxels);
-  }
-
-  Eigen::Vector3i first_;
-  int count_;
-};
-
 class MeshChunksTest : public SurfaceMesh {};
 
 struct Sizes {
@@ -180,83 +108,89 @@ INSTANTIATE_TEST_SUITE_P(Sizes, MeshChunksOfSize,
 TEST_P(MeshChunksOfSize, areTheWholeSurfaceAfterEveryChange) {
   MapParameters colored = parameters(GetParam().block_size, 32);
   colored.color = true;
-  ChangingMap scene(colored);
-  std::vector<uint8_t> paint(scene.map.colors().bytes());
+  BlockSparseMap map(compute(), colored);
+  ChangingMap scene(compute(), map);
+  std::vector<uint8_t> paint(map.colors().bytes());
   for (size_t i = 0; i < paint.size(); ++i)
     paint[i] = static_cast<uint8_t>(i % 4 == 3 ? 9 : i * 2654435761u >> 13);
-  scene.map.colors().write(paint);
-  MeshChunks chunks(compute(), scene.map, {}, GetParam().blocks_per_chunk_axis);
+  map.colors().write(paint);
+  MeshChunks chunks(compute(), map, {}, GetParam().blocks_per_chunk_axis);
   Viewer viewer;
   for (const SignedDistance& surface :
        {sphere({0.001, 0.0, 0.0}, 0.07), sphere({0.004, 0.001, -0.002}, 0.0702),
         sphere({0.02, -0.03, 0.01}, 0.05), sphere({-0.05, -0.05, -0.05}, 0.03), nothing(),
         sphere({0.03, 0.03, 0.03}, 0.04)}) {
-    scene.show(surface, chunks);
+    scene.show(surface, [&](const auto& slots) { chunks.noteUpdated(slots); });
     viewer.follow(chunks);
-    viewer.expectTheWholeSurface(scene.map);
+    viewer.expectTheWholeSurface(map);
   }
   EXPECT_FALSE(viewer.shown().empty());
 }
 
 TEST_F(MeshChunksTest, smallBatchesGiveTheSame) {
-  ChangingMap scene(parameters(4));
+  BlockSparseMap map(compute(), parameters(4));
+  ChangingMap scene(compute(), map);
   SurfaceMeshParameters small;
   small.max_batch_blocks = 9;
-  MeshChunks chunks(compute(), scene.map, small, 8);
+  MeshChunks chunks(compute(), map, small, 8);
   Viewer viewer;
-  scene.show(sphere({0.001, 0.0, 0.0}, 0.07), chunks);
+  scene.show(sphere({0.001, 0.0, 0.0}, 0.07), [&](const auto& slots) { chunks.noteUpdated(slots); });
   viewer.follow(chunks);
-  viewer.expectTheWholeSurface(scene.map);
+  viewer.expectTheWholeSurface(map);
 }
 
 TEST_F(MeshChunksTest, surfaceThatIsGoneIsReportedOnce) {
-  ChangingMap scene(parameters(8));
-  MeshChunks chunks(compute(), scene.map, {}, 2);
+  BlockSparseMap map(compute(), parameters(8));
+  ChangingMap scene(compute(), map);
+  MeshChunks chunks(compute(), map, {}, 2);
   Viewer viewer;
-  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), chunks);
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), [&](const auto& slots) { chunks.noteUpdated(slots); });
   viewer.follow(chunks);
   const ChunkIndices shown = viewer.shown();
   EXPECT_GT(shown.size(), 7u);
-  scene.show(nothing(), chunks);
+  scene.show(nothing(), [&](const auto& slots) { chunks.noteUpdated(slots); });
   EXPECT_EQ(viewer.follow(chunks), shown);
   EXPECT_TRUE(viewer.shown().empty());
   EXPECT_TRUE(viewer.follow(chunks).empty());
 }
 
 TEST_F(MeshChunksTest, onlyThoseThatChangedAreReported) {
-  ChangingMap scene(parameters(8));
-  MeshChunks chunks(compute(), scene.map, {}, 2);
+  BlockSparseMap map(compute(), parameters(8));
+  ChangingMap scene(compute(), map);
+  MeshChunks chunks(compute(), map, {}, 2);
   Viewer viewer;
   const SignedDistance ball = sphere({0.0, 0.0, 0.0}, 0.07);
   const SignedDistance wart = sphere({0.07, 0.02, 0.02}, 0.006);
-  scene.show(ball, chunks);
+  scene.show(ball, [&](const auto& slots) { chunks.noteUpdated(slots); });
   EXPECT_GT(viewer.follow(chunks).size(), 7u);
   EXPECT_TRUE(viewer.follow(chunks).empty());
-  scene.show([&](const Eigen::Vector3d& p) { return std::min(ball(p), wart(p)); }, chunks);
+  scene.show([&](const Eigen::Vector3d& p) { return std::min(ball(p), wart(p)); },
+             [&](const auto& slots) { chunks.noteUpdated(slots); });
   // Blocks of 4 cm: the wart's truncation band lies in x from 4 to 12 cm, and in y and z from -4 to 4 cm.
   for (const MeshChunkIndex& index : viewer.follow(chunks)) {
     EXPECT_TRUE(index[0] == 0 || index[0] == 1) << index[0];
     EXPECT_TRUE(index[1] >= -1 && index[1] <= 0 && index[2] >= -1 && index[2] <= 0)
         << index[1] << " " << index[2];
   }
-  viewer.expectTheWholeSurface(scene.map);
+  viewer.expectTheWholeSurface(map);
 }
 
 TEST_F(MeshChunksTest, oldestChangeComesFirst) {
-  ChangingMap scene(parameters(8));
-  MeshChunks chunks(compute(), scene.map, {}, 2);
+  BlockSparseMap map(compute(), parameters(8));
+  ChangingMap scene(compute(), map);
+  MeshChunks chunks(compute(), map, {}, 2);
   Viewer viewer;
-  scene.show(sphere({-0.08, -0.08, -0.08}, 0.03), chunks);
+  scene.show(sphere({-0.08, -0.08, -0.08}, 0.03), [&](const auto& slots) { chunks.noteUpdated(slots); });
   const size_t first = chunks.changedCount();
   const ChunkIndices near_first = [&] {
-    MeshChunks others(compute(), scene.map, {}, 2);
+    MeshChunks others(compute(), map, {}, 2);
     others.noteAll();
     return Viewer().follow(others);
   }();
   const SignedDistance both = [](const Eigen::Vector3d& p) {
     return std::min(sphere({-0.08, -0.08, -0.08}, 0.03)(p), sphere({0.08, 0.08, 0.08}, 0.03)(p));
   };
-  scene.show(both, chunks);
+  scene.show(both, [&](const auto& slots) { chunks.noteUpdated(slots); });
   EXPECT_EQ(viewer.follow(chunks, first), near_first);
   EXPECT_FALSE(near_first.empty());
   while (chunks.changedCount() > 0) {
@@ -264,34 +198,36 @@ TEST_F(MeshChunksTest, oldestChangeComesFirst) {
     viewer.follow(chunks, 2);
     EXPECT_EQ(before - chunks.changedCount(), std::min<size_t>(before, 2));
   }
-  viewer.expectTheWholeSurface(scene.map);
+  viewer.expectTheWholeSurface(map);
 }
 
 TEST_F(MeshChunksTest, allAreReportedAgainToALateReader) {
-  ChangingMap scene(parameters(8));
-  MeshChunks chunks(compute(), scene.map, {}, 2);
-  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), chunks);
+  BlockSparseMap map(compute(), parameters(8));
+  ChangingMap scene(compute(), map);
+  MeshChunks chunks(compute(), map, {}, 2);
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), [&](const auto& slots) { chunks.noteUpdated(slots); });
   chunks.takeChanged(1000);
   chunks.noteAll();
   Viewer late;
   late.follow(chunks);
-  late.expectTheWholeSurface(scene.map);
+  late.expectTheWholeSurface(map);
 }
 
 TEST_F(MeshChunksTest, resetForgetsThem) {
-  ChangingMap scene(parameters(8));
-  MeshChunks chunks(compute(), scene.map, {}, 2);
+  BlockSparseMap map(compute(), parameters(8));
+  ChangingMap scene(compute(), map);
+  MeshChunks chunks(compute(), map, {}, 2);
   Viewer viewer;
-  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), chunks);
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), [&](const auto& slots) { chunks.noteUpdated(slots); });
   viewer.follow(chunks, 3);
-  scene.map.reset({0.0, 0.0, 0.0});
+  map.reset({0.0, 0.0, 0.0});
   chunks.noteReset();
   EXPECT_EQ(chunks.changedCount(), 0u);
   EXPECT_TRUE(chunks.takeChanged(1000).empty());
   Viewer fresh;
-  scene.show(sphere({0.03, 0.03, 0.03}, 0.04), chunks);
+  scene.show(sphere({0.03, 0.03, 0.03}, 0.04), [&](const auto& slots) { chunks.noteUpdated(slots); });
   fresh.follow(chunks);
-  fresh.expectTheWholeSurface(scene.map);
+  fresh.expectTheWholeSurface(map);
 }
 
 TEST_F(MeshChunksTest, parametersOutOfRangeAreErrors) {

@@ -4,14 +4,24 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <rosgraph_msgs/Clock.h>
 
+#include <atomic>
+#include <cmath>
 #include <condition_variable>
+#include <sstream>
 #include <thread>
 
+#include "depth_fusion/common/percentile.h"
 #include "ros/messages.h"
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/recording.h"
 
 namespace depth_fusion {
+namespace {
+
+constexpr double kLastFrames_s = 1.0;  // until the last ones are through
+constexpr size_t kMaxLatencies = 100000;
+
+}  // namespace
 
 class AcquisitionNodelet : public StageNodelet {
  public:
@@ -25,18 +35,22 @@ class AcquisitionNodelet : public StageNodelet {
   // Until everybody has connected who will.
   void awaitListeners();
   void awaitTime(double stamp_s);
-  void publish(const RgbdFrame& frame);
+  // Returns the stamp.
+  ros::Time publish(const RgbdFrame& frame);
   // Until the frame is in the map, or lost; at most lossless_timeout_s.
   void awaitMap(const ros::Time& stamp);
   // False if stopping.
   bool sleep(double seconds);
 
   void noteDone(const ros::Time& stamp);
+  void noteTracking(const TrackerStatus& status);
+  // What has become of the frames so far.
+  std::string summary();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
   std::string recording_path_, camera_file_, frame_id_ = "camera_rgb_optical_frame";
   RecordingOptions options_;
-  bool lossless_ = false, loop_ = false, publish_clock_ = false;
+  bool lossless_ = false, loop_ = false, restamp_ = false, publish_clock_ = false;
   float rate_ = 1.0f, lossless_timeout_s_ = 60.0f, settle_s_ = 1.0f;
 
   std::unique_ptr<Recording> recording_;
@@ -46,6 +60,8 @@ class AcquisitionNodelet : public StageNodelet {
   std::mutex mutex_;
   std::condition_variable changed_;
   bool stopping_ = false;
+  std::atomic<size_t> fused_{0}, lost_{0};
+  std::vector<double> latencies_ms_;  // of the poses
   std::optional<ros::Time> done_;  // the newest frame known to be in the map, or lost
   std::string state_ = "waiting for subscribers";
   double first_stamp_s_ = -1.0;
@@ -72,6 +88,7 @@ void AcquisitionNodelet::start() {
        {"frame_id", &frame_id_, 0, 0, "optical frame of the images"},
        {"rate", &rate_, 0.01, 100.0, "factor on the recording's speed"},
        {"loop", &loop_, 0, 1, "begin again at the end; the clock then jumps back"},
+       {"restamp", &restamp_, 0, 1, "stamps of now, as a sensor's; false: the recording's"},
        {"publish_clock", &publish_clock_, 0, 1, "publish the stamps on /clock; for use_sim_time"},
        {"lossless", &lossless_, 0, 1, "the next frame waits until the one before is in the map, or lost"},
        {"lossless_timeout_s", &lossless_timeout_s_, 0.1, 3600.0, "how long it waits at most"},
@@ -88,9 +105,13 @@ void AcquisitionNodelet::start() {
   color_info_publisher_ = handle.advertise<sensor_msgs::CameraInfo>("rgb/camera_info", 10);
   if (publish_clock_) clock_publisher_ = handle.advertise<rosgraph_msgs::Clock>("/clock", 10);
   map_subscriber_ = handle.subscribe<MapStatus>(
-      "tsdf_fusion/status", 100, [this](const MapStatus::ConstPtr& status) { noteDone(status->header.stamp); });
+      "tsdf_fusion/status", 100, [this](const MapStatus::ConstPtr& status) {
+        if (status->fused) ++fused_;
+        noteDone(status->header.stamp);
+      });
   tracker_subscriber_ = handle.subscribe<TrackerStatus>(
       "icp_tracking/status", 100, [this](const TrackerStatus::ConstPtr& status) {
+        noteTracking(*status);
         if (status->state >= TrackerStatus::LOST) noteDone(status->header.stamp);
       });
   startReporting();
@@ -105,9 +126,9 @@ void AcquisitionNodelet::play() {
       playOnce();
       recording_.reset();
     } while (loop_ && sleep(0.0));
+    if (sleep(kLastFrames_s)) NODELET_INFO_STREAM(getName() << ": the recording has ended: " << summary());
     const std::lock_guard<std::mutex> lock(mutex_);
     state_ = "the recording has ended";
-    if (!stopping_) NODELET_INFO_STREAM(getName() << ": the recording has ended");
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM(getName() << ": " << error.what());
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -148,13 +169,14 @@ void AcquisitionNodelet::playOnce() {
     if (!frame) return;
     counter_.receive();
     if (!lossless_) awaitTime(frame->stamp_s);
+    ros::Time stamp;
     {
       const StageTimers::Scope timer(timers, "acquisition");
-      publish(*frame);
+      stamp = publish(*frame);
     }
     counter_.process();
     recordTimings(timers);
-    if (lossless_) awaitMap(toRosTime(frame->stamp_s));
+    if (lossless_) awaitMap(stamp);
   }
 }
 
@@ -166,8 +188,8 @@ void AcquisitionNodelet::awaitTime(double stamp_s) {
   sleep((stamp_s - first_stamp_s_) / rate_ - (ros::WallTime::now() - first_sent_).toSec());
 }
 
-void AcquisitionNodelet::publish(const RgbdFrame& frame) {
-  const std_msgs::Header header = makeHeader(toRosTime(frame.stamp_s), frame_id_);
+ros::Time AcquisitionNodelet::publish(const RgbdFrame& frame) {
+  const std_msgs::Header header = makeHeader(restamp_ ? ros::Time::now() : toRosTime(frame.stamp_s), frame_id_);
   if (publish_clock_) {
     rosgraph_msgs::Clock clock;
     clock.clock = header.stamp;
@@ -179,6 +201,7 @@ void AcquisitionNodelet::publish(const RgbdFrame& frame) {
   }
   depth_info_publisher_.publish(boost::make_shared<sensor_msgs::CameraInfo>(makeCameraInfo(header, frame.intrinsics)));
   depth_publisher_.publish(boost::make_shared<sensor_msgs::Image>(makeDepthImage(header, frame.depth, frame.depth_unit_m)));
+  return header.stamp;
 }
 
 void AcquisitionNodelet::awaitMap(const ros::Time& stamp) {
@@ -202,6 +225,28 @@ void AcquisitionNodelet::noteDone(const ros::Time& stamp) {
     if (!done_ || stamp > *done_) done_ = stamp;
   }
   changed_.notify_all();
+}
+
+void AcquisitionNodelet::noteTracking(const TrackerStatus& status) {
+  if (status.state >= TrackerStatus::LOST) {
+    ++lost_;
+    return;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (latencies_ms_.size() == kMaxLatencies) latencies_ms_.clear();
+  latencies_ms_.push_back(1e3 * status.latency_s);
+}
+
+std::string AcquisitionNodelet::summary() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::ostringstream text;
+  const size_t sent = counter_.account().processed;
+  text << sent << " frames sent, " << fused_ << " fused, " << lost_ << " lost, " << sent - fused_ - lost_ << " dropped";
+  if (restamp_) {
+    text << "; pose " << std::lround(percentile(latencies_ms_, 0.5)) << " ms after the image (median), "
+         << std::lround(percentile(latencies_ms_, 0.95)) << " ms (95 %)";
+  }
+  return text.str();
 }
 
 void AcquisitionNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

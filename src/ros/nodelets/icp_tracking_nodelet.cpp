@@ -283,19 +283,20 @@ TrackingResult IcpTrackingNodelet::track(const TexturedFramePtr& frame, StageTim
 
 void IcpTrackingNodelet::send(const TexturedFramePtr& frame, const TrackingResult& result) {
   sent_ = Sent{frame, {frame->sensor, tracker_->depth(), result, map_generation_, std::exchange(begins_map_, false)}};
-  counter_.process();
   frame_publisher_.publish(makeMessage<TrackedFrame>(frame->sensor->header, std::make_shared<TrackedFrame>(sent_->tracked)));
 }
 
 void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResult& result, StageTimers& timers) {
   const std_msgs::Header& header = frame.sensor->header;
   const bool lost = result.status == TrackingStatus::kLost;
+  const double latency_s = (ros::Time::now() - header.stamp).toSec();
   if (lost) {
     pose_publisher_->publishLost(header);
     counter_.drop(mode_ == MapMode::kPaused ? "paused" : "lost");
   } else {
+    counter_.process();
     pose_publisher_->publish(header, result.T_W_D, result.covariance);
-    timers.record("icp_tracking/latency", 1e3 * (ros::Time::now() - header.stamp).toSec());
+    timers.record("icp_tracking/latency", 1e3 * latency_s);
   }
   auto status = boost::make_shared<TrackerStatus>();
   status->header = header;
@@ -307,6 +308,7 @@ void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResul
   status->rmse_m = result.rmse_m;
   status->smallest_eigenvalue = result.smallest_eigenvalue;
   status->prior = view_ == nullptr ? "start" : frame.motion.found ? "texture" : "last pose";
+  status->latency_s = latency_s;
   status->keyframes = static_cast<uint32_t>(tracker_->keyframeCount());
   status->frames = counter_.account();
   status_publisher_.publish(status);

@@ -1,5 +1,6 @@
 #include "ros/nodelets/shared_map.h"
 
+#include <algorithm>
 #include <map>
 
 namespace depth_fusion {
@@ -37,6 +38,18 @@ uint32_t newGeneration() {
 void SharedMap::reset() {
   map.reset(Eigen::Vector3d::Zero());
   generation = newGeneration();
+}
+
+bool SharedMap::isFollowed() {
+  followers_.erase(std::remove_if(followers_.begin(), followers_.end(), [](const auto& f) { return f.expired(); }),
+                   followers_.end());
+  return !followers_.empty();
+}
+
+void SharedMap::noteUpdated(const std::vector<int>& slots) {
+  for (const auto& follower : followers_) {
+    if (const std::shared_ptr<MeshChunks> chunks = follower.lock()) chunks->noteUpdated(slots);
+  }
 }
 
 void offerMap(const std::string& name, const std::shared_ptr<SharedMap>& map) {

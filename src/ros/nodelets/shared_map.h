@@ -5,8 +5,9 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/surface_mesh/mesh_chunks.h"
 
 namespace depth_fusion {
 
@@ -19,14 +20,22 @@ struct SharedMap {
   SharedMap(std::shared_ptr<ComputeContext> context, const MapParameters& parameters)
       : compute(std::move(context)), map(*compute, parameters) {}
 
-  // Empties the map; the caller holds the mutex.
+  // The caller of these holds the mutex.
+  // Empties the map.
   void reset();
+  // Tells the chunks, as long as somebody holds them, of the blocks that change.
+  void follow(const std::shared_ptr<MeshChunks>& chunks) { followers_.push_back(chunks); }
+  bool isFollowed();
+  void noteUpdated(const std::vector<int>& slots);
 
   const std::shared_ptr<ComputeContext> compute;
   std::mutex mutex;    // held by whoever reads or changes the map
   BlockSparseMap map;
   std::atomic<uint32_t> generation{newGeneration()};  // another one after every reset, and of every map of the process
   std::string frame_id;  // of the map's coordinates
+
+ private:
+  std::vector<std::weak_ptr<MeshChunks>> followers_;
 };
 
 // Makes the map known by the resolved name of the nodelet that has it.

@@ -246,6 +246,7 @@ TsdfFusionNodelet::Outcome TsdfFusionNodelet::map(const TrackedFrame& frame, Sta
   if (mode_ == MapMode::kLocalisation) return {map_->map.usage().blocks > 0, false, "localisation only"};
   const MappingResult result =
       mapper_->fuse(frame.sensor->rgbd, preprocess(frame, timers), frame.tracking.T_W_D, timers);
+  if (map_->isFollowed()) map_->noteUpdated(mapper_->updatedBlocks(result));
   if (!result.fused()) return {false, false, notFusedReason()};
   Outcome outcome{true, true, ""};
   if (result.fusion.blocks_allocated < result.fusion.blocks_requested) {

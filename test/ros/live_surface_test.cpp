@@ -1,0 +1,296 @@
+// What viewers are shown of the surface: markers, points, boxes.
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "support/nodelet_graph.h"
+#include "support/offered_map.h"
+
+namespace depth_fusion {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+using Triangle = std::array<std::array<float, 3>, 3>;
+
+Triangle fromItsLeastCorner(Triangle triangle) {
+  std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  return triangle;
+}
+
+std::vector<Triangle> trianglesOf(const TriangleMesh& mesh) {
+  std::vector<Triangle> triangles;
+  for (const MeshTriangle& t : mesh.triangles) {
+    Triangle corners;
+    for (int i = 0; i < 3; ++i) std::copy_n(mesh.vertices[t[i]].position_W.data(), 3, corners[i].begin());
+    triangles.push_back(fromItsLeastCorner(corners));
+  }
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+// What rviz has on its screen.
+class Screen {
+ public:
+  Screen(ros::NodeHandle& handle, const std::string& topic)
+      : subscriber_(handle.subscribe<MarkerArray>(topic, 1000, [this](const MarkerArray::ConstPtr& message) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          for (const Marker& marker : message->markers) apply(marker);
+        })) {}
+
+  std::vector<Triangle> triangles() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<Triangle> triangles;
+    for (const auto& entry : markers_) {
+      const auto& points = entry.second.points;
+      EXPECT_EQ(points.size() % 3, 0u);
+      EXPECT_EQ(entry.second.colors.size(), points.size());
+      for (size_t i = 0; i + 2 < points.size(); i += 3) {
+        Triangle t;
+        for (int corner = 0; corner < 3; ++corner) {
+          const geometry_msgs::Point& p = points[i + corner];
+          t[corner] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+        }
+        triangles.push_back(fromItsLeastCorner(t));
+      }
+    }
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+  }
+  bool shows(const TriangleMesh& mesh) const {
+    const std::vector<Triangle> expected = trianglesOf(mesh);
+    return eventually([&] { return triangles() == expected; }, 30.0);
+  }
+  std::map<int, Marker> markers() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return markers_;
+  }
+  // Numbers of markers that came since the last call.
+  struct Traffic {
+    size_t added = 0, deleted = 0, all_deleted = 0;
+  };
+  Traffic takeTraffic() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(traffic_, Traffic());
+  }
+
+ private:
+  void apply(const Marker& marker) {
+    EXPECT_EQ(marker.ns, "surface");
+    EXPECT_EQ(marker.header.frame_id, "map");
+    if (marker.action == Marker::DELETEALL) {
+      ++traffic_.all_deleted;
+      markers_.clear();
+    } else if (marker.action == Marker::DELETE) {
+      ++traffic_.deleted;
+      EXPECT_EQ(markers_.erase(marker.id), 1u);
+    } else {
+      ++traffic_.added;
+      EXPECT_EQ(marker.type, +Marker::TRIANGLE_LIST);
+      EXPECT_EQ(marker.pose.orientation.w, 1.0);
+      markers_[marker.id] = marker;
+    }
+  }
+
+  mutable std::mutex mutex_;
+  std::map<int, Marker> markers_;
+  Traffic traffic_;
+  ros::Subscriber subscriber_;
+};
+
+SignedDistance twoBalls() {
+  return [](const Eigen::Vector3d& p) {
+    return std::min(ball({-0.06, -0.06, -0.06}, 0.03)(p), ball({0.06, 0.06, 0.06}, 0.04)(p));
+  };
+}
+
+class LiveSurfaceTest : public testing::Test {
+ protected:
+  LiveSurfaceTest() : graph_("live_surface"), map_(graph_.resolve("tsdf_fusion"), false) {
+    graph_.handle().setParam("surface_mesh/chunk_blocks", 2);
+    graph_.handle().setParam("surface_mesh/publish_rate_hz", 20.0);
+    graph_.handle().setParam("surface_mesh/points_rate_hz", 20.0);
+  }
+  void load() { ASSERT_TRUE(graph_.load("surface_mesh")); }
+  // Long enough for several updates.
+  static void waitForUpdates() { ros::WallDuration(0.5).sleep(); }
+
+  NodeletGraph graph_;
+  OfferedMap map_;
+};
+
+TEST_F(LiveSurfaceTest, markersFollowTheSurface) {
+  load();
+  Screen screen(graph_.handle(), "surface_mesh/markers");
+  map_.show(twoBalls());
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+  EXPECT_EQ(screen.takeTraffic().all_deleted, 1u);  // of what an earlier publisher left
+  const size_t before = screen.markers().size();
+  map_.show(ball({0.06, 0.06, 0.06}, 0.041));
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+  EXPECT_LT(screen.markers().size(), before);
+  const Screen::Traffic traffic = screen.takeTraffic();
+  EXPECT_EQ(traffic.deleted, before - screen.markers().size());
+  EXPECT_EQ(traffic.all_deleted, 0u);
+  map_.show(nothing());
+  EXPECT_TRUE(screen.shows(TriangleMesh()));
+  EXPECT_TRUE(screen.markers().empty());
+}
+
+TEST_F(LiveSurfaceTest, onlyWhatChangedIsPublished) {
+  load();
+  Screen screen(graph_.handle(), "surface_mesh/markers");
+  map_.show(twoBalls());
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+  waitForUpdates();
+  screen.takeTraffic();
+  waitForUpdates();
+  EXPECT_EQ(screen.takeTraffic().added, 0u);
+  const std::map<int, Marker> before = screen.markers();
+  map_.show([](const Eigen::Vector3d& p) {
+    return std::min(ball({-0.06, -0.06, -0.06}, 0.031)(p), ball({0.06, 0.06, 0.06}, 0.04)(p));
+  });
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+  EXPECT_LT(screen.takeTraffic().added, before.size());
+}
+
+// All the subscribers of a process are one viewer of a topic, so the early one looks at another topic.
+TEST_F(LiveSurfaceTest, lateViewersGetAllOfIt) {
+  graph_.handle().setParam("surface_mesh/chunks_per_update", 2);
+  load();
+  Listener<sensor_msgs::PointCloud2> early(graph_.handle(), "surface_mesh/points");
+  map_.show(twoBalls());
+  ASSERT_NE(early.await([](const auto& c) { return c.width * c.height > 60; }, 30.0), nullptr);
+  waitForUpdates();
+  Screen late(graph_.handle(), "surface_mesh/markers");
+  EXPECT_TRUE(late.shows(map_.mesh()));
+}
+
+TEST_F(LiveSurfaceTest, resetClearsTheScreen) {
+  load();
+  Screen screen(graph_.handle(), "surface_mesh/markers");
+  map_.show(twoBalls());
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+  screen.takeTraffic();
+  map_.reset();
+  EXPECT_TRUE(screen.shows(TriangleMesh()));
+  EXPECT_EQ(screen.takeTraffic().all_deleted, 1u);
+  map_.show(ball({0.0, 0.0, 0.0}, 0.05));
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+}
+
+TEST_F(LiveSurfaceTest, nothingIsDoneWithoutAViewer) {
+  load();
+  map_.show(twoBalls());
+  waitForUpdates();
+  EXPECT_FALSE(map_.isFollowed());
+  {
+    Screen screen(graph_.handle(), "surface_mesh/markers");
+    EXPECT_TRUE(screen.shows(map_.mesh()));
+    EXPECT_TRUE(map_.isFollowed());
+  }
+  EXPECT_TRUE(eventually([&] { return !map_.isFollowed(); }, 30.0));
+}
+
+TEST_F(LiveSurfaceTest, subscribersShareOneMessage) {
+  load();
+  Listener<MarkerArray> one(graph_.handle(), "surface_mesh/markers"),
+      other(graph_.handle(), "surface_mesh/markers");
+  ASSERT_TRUE(eventually([&] { return one.connected() && other.connected(); }));
+  waitForUpdates();
+  const size_t seen_by_one = one.count(), seen_by_other = other.count();
+  map_.show(ball({0.0, 0.0, 0.0}, 0.05));
+  ASSERT_TRUE(one.awaitCount(seen_by_one + 1) && other.awaitCount(seen_by_other + 1));
+  EXPECT_EQ(one.all().back().get(), other.all().back().get());
+}
+
+TEST_F(LiveSurfaceTest, anotherMapTakesTheFirstsPlace) {
+  load();
+  Screen screen(graph_.handle(), "surface_mesh/markers");
+  map_.show(twoBalls());
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+  OfferedMap other(graph_.resolve("tsdf_fusion"));
+  other.show(ball({0.0, 0.0, 0.0}, 0.05));
+  EXPECT_TRUE(screen.shows(other.mesh()));
+  EXPECT_TRUE(eventually([&] { return !map_.isFollowed(); }, 30.0));
+}
+
+TEST_F(LiveSurfaceTest, pointsLieOnTheSurface) {
+  load();
+  map_.show(ball({0.0, 0.0, 0.0}, 0.08));
+  Listener<sensor_msgs::PointCloud2> clouds(graph_.handle(), "surface_mesh/points");
+  const size_t vertices = map_.mesh().vertices.size();
+  // A ball of 8 cm meets about 200 cubes of 2 cm.
+  const auto cloud = clouds.await([](const auto& c) { return c.width * c.height > 150; }, 30.0);
+  ASSERT_NE(cloud, nullptr);
+  EXPECT_EQ(cloud->header.frame_id, "map");
+  const size_t points = cloud->width * cloud->height;
+  EXPECT_LT(points, vertices / 8);
+  sensor_msgs::PointCloud2ConstIterator<float> x(*cloud, "x"), normal(*cloud, "normal_x");
+  sensor_msgs::PointCloud2ConstIterator<uint8_t> rgb(*cloud, "rgb");
+  for (size_t i = 0; i < points; ++i, ++x, ++normal, ++rgb) {
+    const Eigen::Vector3f p(x[0], x[1], x[2]), n(normal[0], normal[1], normal[2]);
+    EXPECT_NEAR(p.norm(), 0.08f, 0.001f);
+    EXPECT_GT(n.dot(p.normalized()), 0.99f);
+    EXPECT_GT(rgb[0] + rgb[1] + rgb[2], 60);
+  }
+}
+
+TEST_F(LiveSurfaceTest, allVerticesArePointsWithoutSpacing) {
+  graph_.handle().setParam("surface_mesh/point_spacing_m", 0.0);
+  graph_.handle().setParam("surface_mesh/chunk_blocks", 64);
+  load();
+  map_.show(ball({0.05, 0.05, 0.05}, 0.04));
+  Listener<sensor_msgs::PointCloud2> clouds(graph_.handle(), "surface_mesh/points");
+  const size_t vertices = map_.mesh().vertices.size();
+  EXPECT_NE(clouds.await([&](const auto& c) { return c.width * c.height == vertices; }, 30.0), nullptr);
+}
+
+TEST_F(LiveSurfaceTest, boxesAreTheBlocks) {
+  load();
+  map_.show(ball({0.0, 0.0, 0.0}, 0.08));
+  Listener<Marker> boxes(graph_.handle(), "surface_mesh/blocks");
+  const size_t blocks = map_.shared().map.usage().blocks;
+  const auto marker = boxes.await([&](const Marker& m) { return m.points.size() == blocks; }, 30.0);
+  ASSERT_NE(marker, nullptr);
+  EXPECT_EQ(marker->type, +Marker::CUBE_LIST);
+  for (const geometry_msgs::Point& p : marker->points) {
+    const double from_surface_m = std::abs(Eigen::Vector3d(p.x, p.y, p.z).norm() - 0.08);
+    EXPECT_LT(from_surface_m, 0.02 + 0.02 * std::sqrt(3.0));  // the truncation and half a block's diagonal
+  }
+}
+
+// Real frames, tracked and fused: what the screen shows in the end is the map's surface.
+TEST_F(LiveSurfaceTest, fusionIsFollowed) {
+  constexpr int kFrames = 15;
+  NodeletGraph graph("live_fusion");
+  graph.handle().setParam("surface_mesh/publish_rate_hz", 10.0);
+  graph.handle().setParam("surface_mesh/chunks_per_update", 50);
+  Listener<MapStatus> map_status(graph.handle(), "tsdf_fusion/status");
+  graph.loadTracking();
+  ASSERT_TRUE(graph.load("surface_mesh"));
+  FakeCamera camera(graph.handle());
+  ASSERT_TRUE(camera.awaitSubscribers());
+  Screen screen(graph.handle(), "surface_mesh/markers");
+  for (const RgbdFrame& frame : simulatedFrames(smallRoom(kFrames))) {
+    camera.publish(frame);
+    EXPECT_NE(map_status.awaitStamp(toRosTime(frame.stamp_s)), nullptr);
+  }
+  const std::shared_ptr<SharedMap> map = findMap(graph.resolve("tsdf_fusion"));
+  ASSERT_NE(map, nullptr);
+  TriangleMesh mesh;
+  {
+    const std::lock_guard<std::mutex> lock(map->mutex);
+    exportSurfaceMesh(*map->compute, map->map, mesh);
+  }
+  EXPECT_GT(mesh.triangles.size(), 10000u);
+  EXPECT_TRUE(screen.shows(mesh));
+}
+
+}  // namespace
+}  // namespace depth_fusion

@@ -1,0 +1,154 @@
+// The service export_mesh.
+#include <depth_fusion/ExportMesh.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "depth_fusion/surface_mesh/ply.h"
+#include "support/nodelet_graph.h"
+#include "support/offered_map.h"
+#include "support/temporary_folder.h"
+
+namespace depth_fusion {
+namespace {
+
+class MeshExport : public testing::Test {
+ protected:
+  MeshExport() : graph_("mesh_export") { setenv("ROS_HOME", ros_home_.path().c_str(), 1); }
+
+  void load() {
+    ASSERT_TRUE(graph_.load("surface_mesh"));
+    client_ = graph_.handle().serviceClient<ExportMesh>("surface_mesh/export_mesh");
+    ASSERT_TRUE(client_.waitForExistence(ros::Duration(10.0)));
+  }
+
+  ExportMesh::Response call(const std::string& path, double simplification = 0.0, bool color = false,
+                            const std::string& format = "") {
+    ExportMesh service;
+    service.request.path = path;
+    service.request.format = format;
+    service.request.color = color;
+    service.request.simplification = simplification;
+    EXPECT_TRUE(client_.call(service));
+    return service.response;
+  }
+  void expectRefusal(const ExportMesh::Response& response, const std::vector<std::string>& words) {
+    EXPECT_FALSE(response.success);
+    EXPECT_EQ(response.message.find('\n'), std::string::npos) << response.message;
+    for (const std::string& word : words)
+      EXPECT_NE(response.message.find(word), std::string::npos)
+          << "'" << word << "' is not in: " << response.message;
+    EXPECT_TRUE(std::filesystem::is_empty(ros_home_.path()));
+  }
+
+  TemporaryFolder ros_home_;
+  NodeletGraph graph_;
+  ros::ServiceClient client_;
+};
+
+TEST_F(MeshExport, writesTheSurfaceAndSaysWhatItWrote) {
+  OfferedMap map(graph_.resolve("tsdf_fusion"));
+  map.show(ball({0.0, 0.0, 0.0}, 0.08));
+  load();
+  const ExportMesh::Response response = call("ball.ply");
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(response.message, ros_home_ / "ball.ply");
+  const TriangleMesh written = readPly(response.message);
+  EXPECT_EQ(written.triangles, map.mesh().triangles);
+  EXPECT_EQ(response.vertices, written.vertices.size());
+  EXPECT_EQ(response.triangles, written.triangles.size());
+  EXPECT_EQ(response.bytes, std::filesystem::file_size(response.message));
+}
+
+TEST_F(MeshExport, takesAbsolutePathsFormatsAndEndings) {
+  OfferedMap map(graph_.resolve("tsdf_fusion"));
+  map.show(ball({0.0, 0.0, 0.0}, 0.08));
+  load();
+  const TemporaryFolder folder;
+  for (const char* name : {"mesh.obj", "mesh.stl", "mesh.ply"}) {
+    const ExportMesh::Response response = call(folder / name);
+    EXPECT_TRUE(response.success) << response.message;
+    EXPECT_EQ(response.message, folder / name);
+    EXPECT_EQ(response.triangles, map.mesh().triangles.size());
+  }
+  const ExportMesh::Response response = call(folder / "mesh", 1.0, false, "ply");
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(readPly(folder / "mesh").triangles.size(), map.mesh().triangles.size());
+}
+
+TEST_F(MeshExport, simplifiesOnRequest) {
+  OfferedMap map(graph_.resolve("tsdf_fusion"));
+  map.show(ball({0.0, 0.0, 0.0}, 0.08));
+  load();
+  const ExportMesh::Response response = call("ball.ply", 0.1);
+  if (response.message.find("libmeshoptimizer") != std::string::npos) GTEST_SKIP() << response.message;
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_LE(response.triangles, map.mesh().triangles.size() / 10);
+  EXPECT_EQ(readPly(response.message).triangles.size(), response.triangles);
+}
+
+TEST_F(MeshExport, givesColorsOnRequest) {
+  OfferedMap map(graph_.resolve("tsdf_fusion"), true);
+  map.show(ball({0.0, 0.0, 0.0}, 0.08));
+  load();
+  EXPECT_TRUE(readPly(call("plain.ply").message).colors.empty());
+  EXPECT_EQ(readPly(call("colored.ply", 0.0, true).message).colors, map.mesh().colors);
+}
+
+TEST_F(MeshExport, refusesWhatItCannotDo) {
+  OfferedMap map(graph_.resolve("tsdf_fusion"));
+  load();
+  expectRefusal(call("mesh.ply"), {"no surface yet"});
+  map.show(ball({0.0, 0.0, 0.0}, 0.08));
+  expectRefusal(call(""), {"path is empty"});
+  expectRefusal(call("no/such/mesh.ply"), {ros_home_ / "no/such", "does not exist"});
+  expectRefusal(call(ros_home_.path()), {ros_home_.path(), "is a folder"});
+  expectRefusal(call("mesh.glb"), {"glb", "ply, obj, stl"});
+  expectRefusal(call("mesh.ply", 0.0, false, "las"), {"las", "ply, obj, stl"});
+  expectRefusal(call("mesh.ply", 1.5), {"simplification", "1.5"});
+  expectRefusal(call("mesh.ply", -0.1), {"simplification", "-0.1"});
+  expectRefusal(call("/dev/full"), {"/dev/full"});
+}
+
+TEST_F(MeshExport, refusesWithoutAMap) {
+  load();
+  expectRefusal(call("mesh.ply"), {"no map", graph_.resolve("tsdf_fusion")});
+}
+
+// Frames come at their rate while the mesh is exported again and again: all of them are fused, and no file is
+// half of one.
+TEST_F(MeshExport, answersWhileDataFlows) {
+  constexpr int kFrames = 40;
+  graph_.handle().setParam("icp_tracking/level_start", false);
+  graph_.handle().setParam("icp_tracking/queue_size", kFrames);
+  graph_.handle().setParam("tsdf_fusion/queue_size", kFrames);
+  graph_.handle().setParam("texture_odometry/queue_size", kFrames);
+  Listener<MapStatus> map_status(graph_.handle(), "tsdf_fusion/status");
+  graph_.loadTracking();
+  load();
+  FakeCamera camera(graph_.handle());
+  ASSERT_TRUE(camera.awaitSubscribers());
+  size_t exports = 0, last_triangles = 0;
+  std::thread viewer([&] {
+    ASSERT_TRUE(map_status.awaitCount(5));
+    for (; map_status.count() < kFrames; ++exports) {
+      const ExportMesh::Response response = call("room.ply");
+      ASSERT_TRUE(response.success) << response.message;
+      last_triangles = readPly(response.message).triangles.size();
+      EXPECT_EQ(last_triangles, response.triangles);
+    }
+  });
+  for (const RgbdFrame& frame : simulatedFrames(smallRoom(kFrames))) {
+    camera.publish(frame);
+    ros::WallDuration(1.0 / 15.0).sleep();
+  }
+  EXPECT_TRUE(map_status.awaitCount(kFrames, 60.0));
+  viewer.join();
+  EXPECT_GT(exports, 1u);
+  EXPECT_GT(last_triangles, 10000u);
+  for (const auto& status : map_status.all()) EXPECT_TRUE(status->fused) << status->reason;
+}
+
+}  // namespace
+}  // namespace depth_fusion

@@ -1,0 +1,66 @@
+// A bag through the real roscore, rosbag play and nodelet manager; the launch file has the nodelets.
+#include <cstdlib>
+
+#include <tf2_ros/transform_listener.h>
+
+#include "ros/recording.h"
+#include "support/nodelet_graph.h"
+#include "support/temporary_folder.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr int kFrames = 60;
+
+uint64_t droppedOf(const FrameAccount& account) {
+  uint64_t sum = 0;
+  for (const uint64_t frames : account.dropped) sum += frames;
+  return sum;
+}
+
+TEST(Replay, ABagBecomesPosesAndAMapAndNoFrameIsUnaccountedFor) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "room.bag";
+  const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(kFrames));
+  const auto bag = createBag(path);
+  for (RgbdFrame frame : frames) {
+    frame.T_W_D.reset();  // no poses on tf but the tracker's
+    bag->write(frame);
+  }
+  bag->finish();
+
+  ros::NodeHandle handle("/camera");
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  Listener<TrackerStatus> tracker(handle, "icp_tracking/status");
+  Listener<MapStatus> map(handle, "tsdf_fusion/status");
+  ASSERT_TRUE(eventually([&] { return tracker.connected() && map.connected(); }));
+  ros::WallDuration(2.0).sleep();  // until the nodelets have found each other
+  // Slowly, for the test machine has more to do.
+  ASSERT_EQ(std::system(("rosbag play --quiet --clock --delay=1 --rate=0.2 " + path).c_str()), 0);
+
+  const ros::Time last = toRosTime(frames.back().stamp_s);
+  ASSERT_NE(tracker.awaitStamp(last), nullptr);
+  const auto status = map.awaitStamp(last);
+  ASSERT_NE(status, nullptr);
+  EXPECT_TRUE(status->fused) << status->reason;
+  const TrackerStatus tracking = *tracker.awaitStamp(last);
+  EXPECT_EQ(tracking.frames.received, uint64_t{kFrames});
+  EXPECT_EQ(tracking.frames.processed + droppedOf(tracking.frames), uint64_t{kFrames});
+  EXPECT_EQ(status->frames.processed + droppedOf(status->frames), tracking.frames.processed);
+
+  const auto pose = [&](const RgbdFrame& frame) {
+    return fromMessage(
+        buffer.lookupTransform("map", "camera_rgb_optical_frame", toRosTime(frame.stamp_s), ros::Duration(kPatience_s))
+            .transform);
+  };
+  const Pose motion = pose(frames.front()).inverse() * pose(frames.back());
+  const Pose error = (frames.front().T_W_D->inverse() * *frames.back().T_W_D).inverse() * motion;
+  EXPECT_LT(error.translation().norm(), 0.01);
+  EXPECT_LT(rotationAngle(error), 0.0087);
+}
+
+}  // namespace
+}  // namespace depth_fusion
