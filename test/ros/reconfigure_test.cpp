@@ -124,7 +124,7 @@ TEST_F(Reconfigure, ChangesWhileFramesFlowAreTakenAndNoFrameIsLost) {
     const double sigma_px = 1.0 + 0.02 * static_cast<double>(i);
     const std::string nodelet = i % 2 == 0 ? "icp_tracking" : "tsdf_fusion";
     const std::string name = "preprocessing/bilateral_sigma_px";
-    EXPECT_EQ(doubleOf(set(nodelet, real(name, sigma_px)), name), sigma_px);
+    EXPECT_FLOAT_EQ(doubleOf(set(nodelet, real(name, sigma_px)), name), sigma_px);
     const auto status = tracker.awaitStamp(camera.headerOf(frames[i]).stamp);
     ASSERT_NE(status, nullptr);
     EXPECT_EQ(status->state, TrackerStatus::TRACKING) << status->reason;
