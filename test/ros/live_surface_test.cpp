@@ -1,4 +1,5 @@
 // What viewers are shown of the surface: markers, points, boxes.
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -157,6 +158,22 @@ TEST_F(LiveSurfaceTest, onlyWhatChangedIsPublished) {
   });
   EXPECT_TRUE(screen.shows(map_.mesh()));
   EXPECT_LT(screen.takeTraffic().added, before.size());
+}
+
+TEST_F(LiveSurfaceTest, newParametersShowAllOfItAnew) {
+  graph_.handle().setParam("surface_mesh/point_spacing_m", 0.1);
+  load();
+  Listener<sensor_msgs::PointCloud2> points(graph_.handle(), "surface_mesh/points");
+  map_.show(twoBalls());
+  const auto sparse = points.await([](const auto& c) { return c.width * c.height > 0; }, 30.0);
+  ASSERT_NE(sparse, nullptr);
+  EXPECT_LT(sparse->width * sparse->height, 60u);
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.doubles.resize(1);
+  call.request.config.doubles[0].name = "point_spacing_m";
+  call.request.config.doubles[0].value = 0.01;
+  ASSERT_TRUE(ros::service::call(graph_.resolve("surface_mesh/set_parameters"), call));
+  EXPECT_NE(points.await([](const auto& c) { return c.width * c.height > 60; }, 30.0), nullptr);
 }
 
 // All the subscribers of a process are one viewer of a topic, so the early one looks at another topic.

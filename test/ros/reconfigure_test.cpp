@@ -113,6 +113,24 @@ TEST_F(Reconfigure, StricterGateLosesTrackingAndTheOldOneFindsItAgain) {
   EXPECT_EQ(stateAfter(frames[2]), TrackerStatus::TRACKING);
 }
 
+TEST_F(Reconfigure, ChangesWhileFramesFlowAreTakenAndNoFrameIsLost) {
+  graph_.loadTracking();
+  const Listener<TrackerStatus> tracker(graph_.handle(), "icp_tracking/status");
+  FakeCamera camera(graph_.handle());
+  ASSERT_TRUE(camera.awaitSubscribers());
+  const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(20));
+  for (size_t i = 0; i < frames.size(); ++i) {
+    camera.publish(frames[i]);
+    const double sigma_px = 1.0 + 0.02 * static_cast<double>(i);
+    const std::string nodelet = i % 2 == 0 ? "icp_tracking" : "tsdf_fusion";
+    const std::string name = "preprocessing/bilateral_sigma_px";
+    EXPECT_FLOAT_EQ(doubleOf(set(nodelet, real(name, sigma_px)), name), sigma_px);
+    const auto status = tracker.awaitStamp(camera.headerOf(frames[i]).stamp);
+    ASSERT_NE(status, nullptr);
+    EXPECT_EQ(status->state, TrackerStatus::TRACKING) << status->reason;
+  }
+}
+
 TEST_F(Reconfigure, ChangeIsPublishedAndOnTheParameterServer) {
   ASSERT_TRUE(graph_.load("icp_tracking"));
   const Listener<Config> updates(graph_.handle(), "icp_tracking/parameter_updates");

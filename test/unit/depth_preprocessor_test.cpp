@@ -47,6 +47,34 @@ long nonzeroPadding(const DeviceBuffer& image, const CameraIntrinsics& camera, i
   return nonzero - cv::countNonZero(readImage(image, camera, planes).reshape(1));
 }
 
+TEST(DepthPreprocessor, NewParametersAreThoseOfAFreshOne) {
+  const CameraIntrinsics camera = cameraOfSize(64, 48);
+  const RgbdFrame frame = frameOf(busyDepth(camera));
+  PreprocessingParameters parameters;
+  DepthSensorParameters sensor;
+  DepthPreprocessor changed(compute(), parameters, camera, sensor);
+  changed.process(frame);
+  parameters.max_range_m = 1.5f;
+  parameters.bilateral_sigma_px = 0.7f;
+  sensor.sigma_base_m = 0.003f;
+  changed.setParameters(parameters, sensor);
+  DepthPreprocessor fresh(compute(), parameters, camera, sensor);
+  const DepthFrame& a = changed.process(frame);
+  const DepthFrame& b = fresh.process(frame);
+  EXPECT_EQ(a.depth_step_m, b.depth_step_m);
+  EXPECT_EQ(a.levels[0].sensor.sigma_base_m, 0.003f);
+  EXPECT_EQ(a.measurements.read<uint32_t>(planeElements(camera)), b.measurements.read<uint32_t>(planeElements(camera)));
+}
+
+TEST(DepthPreprocessor, RefusedParametersChangeNothing) {
+  const CameraIntrinsics camera = cameraOfSize(64, 48);
+  PreprocessingParameters parameters;
+  DepthPreprocessor preprocessor(compute(), parameters, camera);
+  parameters.min_range_m = parameters.max_range_m;
+  expectError([&] { preprocessor.setParameters(parameters, {}); }, {"preprocessing/min_range_m must be below"});
+  EXPECT_GT(cv::countNonZero(readImage(preprocessor.process(frameOf(busyDepth(camera))).raw_depth, camera, 1)), 0);
+}
+
 TEST(DepthPreprocessor, MetresOfIntegers) {
   const PreprocessingParameters parameters;
   for (const auto& [width, height] : {std::pair{100, 75}, {33, 31}, {640, 480}}) {

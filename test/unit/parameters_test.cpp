@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 
 #include "depth_fusion/common/error.h"
@@ -117,6 +118,23 @@ TEST(Parameters, ValueTextIsReadBack) {
   EXPECT_EQ(copy.enabled, stage.enabled);
   EXPECT_EQ(copy.levels, stage.levels);
   EXPECT_EQ(copy.distance_m, stage.distance_m);
+}
+
+TEST(Parameters, ValueTextIsShortAndExact) {
+  Stage stage;
+  const Parameter& row = findParameter(stage.table(), "distance_m");
+  for (const float value : {0.1f, 5e-5f, 1.0f / 3.0f, 0.1f + 1e-8f, 16777216.0f}) {
+    stage.distance_m = value;
+    EXPECT_EQ(std::strtof(valueText(row).c_str(), nullptr), value);
+  }
+  stage.distance_m = 0.1f;
+  EXPECT_EQ(valueText(row), "0.1");
+}
+
+TEST(Parameters, RowsAreMarkedForTheStart) {
+  Stage stage;
+  for (const Parameter& row : stage.table()) EXPECT_FALSE(row.at_start_only);
+  for (const Parameter& row : atStartOnly(stage.table())) EXPECT_TRUE(row.at_start_only);
 }
 
 TEST_F(ParameterFile, SetsTheParametersOfAStage) {

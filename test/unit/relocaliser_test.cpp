@@ -39,6 +39,15 @@ TEST(Relocaliser, KeepsOnlyFramesFarFromEachOther) {
   EXPECT_TRUE(relocaliser.keyframes().empty());
 }
 
+TEST(Relocaliser, LowerLimitDropsAtOnce) {
+  RelocalisationParameters parameters;
+  Relocaliser relocaliser(parameters);
+  for (const double x_m : {0.0, 1.0, 2.0}) relocaliser.add(someFeatures(), at(x_m));
+  parameters.max_keyframes = 0;
+  relocaliser.setParameters(parameters);
+  EXPECT_TRUE(relocaliser.keyframes().empty());
+}
+
 TEST(Relocaliser, DropsTheMostCrowdedWhenFull) {
   RelocalisationParameters parameters;
   parameters.keyframe_distance_m = 0.2f;

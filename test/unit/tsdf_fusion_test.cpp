@@ -119,6 +119,16 @@ TEST(TsdfFusion, RefusesWhatIsNoRule) {
   expectError([&] { TsdfFusion(compute(), map, parameters); }, {"process_sigma_m"});
 }
 
+TEST(TsdfFusion, NumbersMayChangeAndTheRuleNot) {
+  BlockSparseMap map(compute(), mapParameters());
+  TsdfFusion fusion(compute(), map, fusionBy("kalman", "plane"));
+  FusionParameters parameters = fusionBy("kalman", "plane");
+  parameters.process_sigma_m = 0.001f;
+  fusion.setParameters(parameters);
+  expectError([&] { fusion.setParameters(fusionBy("average", "plane")); }, {"tsdf_fusion/rule"});
+  expectError([&] { fusion.setParameters(fusionBy("kalman", "refined")); }, {"tsdf_fusion/distance"});
+}
+
 struct Deviation {
   double mean = 0.0, spread = 0.0;
 };

@@ -19,6 +19,8 @@ class SurfaceMeshNodelet : public StageNodelet {
  private:
   void start() override;
   void loadAll();
+  void applyParameters() override;
+  void betweenFrames(const std::function<void()>& action) override;
   void advertise();
   // The map of the nodelet tsdf_fusion; null without one.
   std::shared_ptr<SharedMap> findFusionMap() const { return findMap(map_name_); }
@@ -34,6 +36,7 @@ class SurfaceMeshNodelet : public StageNodelet {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
+  std::mutex parameters_mutex_;  // held for an update, and to change them
   SurfaceMeshParameters mesh_;
   LiveSurfaceParameters live_;
   float publish_rate_hz_ = 2.0f;
@@ -75,11 +78,21 @@ void SurfaceMeshNodelet::loadAll() {
   ParameterTable table = mesh_.table();
   for (const Parameter& row : live_.table()) table.push_back(row);
   table.push_back(
-      {"map", &map_name_, 0, 0, "the nodelet that has the map; empty: tsdf_fusion beside this one"});
+      {"map", &map_name_, 0, 0, "the nodelet that has the map; empty: tsdf_fusion beside this one", {}, true});
   table.push_back({"publish_rate_hz", &publish_rate_hz_, 0.1, 30.0, "of updates of the markers"});
   table.push_back(
       {"points_rate_hz", &points_rate_hz_, 0.01, 30.0, "of the points and the blocks' boxes, at most"});
   loadParameters(table);
+}
+
+void SurfaceMeshNodelet::applyParameters() {
+  surface_.reset();  // the next one is shown as a whole
+  update_timer_.setPeriod(ros::WallDuration(1.0 / publish_rate_hz_));
+}
+
+void SurfaceMeshNodelet::betweenFrames(const std::function<void()>& action) {
+  const std::lock_guard<std::mutex> lock(parameters_mutex_);
+  action();
 }
 
 void SurfaceMeshNodelet::advertise() {
@@ -96,6 +109,7 @@ void SurfaceMeshNodelet::advertise() {
 }
 
 void SurfaceMeshNodelet::update() {
+  const std::lock_guard<std::mutex> parameters_lock(parameters_mutex_);
   std::string problem;
   try {
     const std::shared_ptr<SharedMap> map = findFusionMap();
@@ -165,7 +179,9 @@ ExportMesh::Response SurfaceMeshNodelet::exportNow(const ExportMesh::Request& re
     const std::shared_ptr<SharedMap> map = findFusionMap();
     check(map != nullptr, "no map of " + map_name_ +
                               " in this process; load tsdf_fusion in the same nodelet manager, or set ~map");
-    response = exportMesh(*map, request, mesh_);
+    SurfaceMeshParameters mesh;
+    betweenFrames([&] { mesh = mesh_; });
+    response = exportMesh(*map, request, mesh);
   }
   recordTimings(timers);
   return response;
