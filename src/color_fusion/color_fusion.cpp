@@ -93,6 +93,11 @@ ColorFusion::ColorFusion(ComputeContext& compute, BlockSparseMap& map,
 
 ColorFusion::~ColorFusion() = default;
 
+void ColorFusion::setParameters(const ColorFusionParameters& parameters) {
+  validate(ColorFusionParameters(parameters).table());
+  parameters_ = parameters;
+}
+
 ColorFusionResult ColorFusion::integrate(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D,
                                          const DeviceBuffer& visible, size_t visible_count,
                                          StageTimers& timers) {

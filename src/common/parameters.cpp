@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 
@@ -46,6 +47,17 @@ Number parseNumber(const std::string& name, const std::string& text) {
   stream >> number;
   check(!stream.fail() && stream.eof(), "parameter '" + name + "': '" + text + "' is not a number of its type");
   return number;
+}
+
+std::string shortestText(float number) {
+  std::ostringstream text;
+  for (int digits = std::numeric_limits<float>::digits10; digits <= std::numeric_limits<float>::max_digits10; ++digits) {
+    text.str("");
+    text.precision(digits);
+    text << number;
+    if (std::strtof(text.str().c_str(), nullptr) == number) break;
+  }
+  return text.str();
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -95,26 +107,36 @@ void flatten(const YAML::Node& node, const std::string& prefix, const ParameterT
 
 }  // namespace
 
+ParameterTable atStartOnly(ParameterTable table) {
+  for (Parameter& parameter : table) parameter.at_start_only = true;
+  return table;
+}
+
 ParameterTable withPrefix(const std::string& stage, ParameterTable stage_table) {
   for (Parameter& parameter : stage_table) parameter.name = stage + "/" + parameter.name;
   return stage_table;
 }
 
-void setParameter(const ParameterTable& table, const std::string& name, const std::string& text) {
+const Parameter& findParameter(const ParameterTable& table, const std::string& name) {
   const auto row =
       std::find_if(table.begin(), table.end(), [&](const Parameter& p) { return p.name == name; });
   check(row != table.end(), "unknown parameter '" + name + "'; did you mean '" + nearestName(table, name) + "'?");
-  if (const auto* flag = std::get_if<bool*>(&row->value)) {
+  return *row;
+}
+
+void setParameter(const ParameterTable& table, const std::string& name, const std::string& text) {
+  const Parameter& row = findParameter(table, name);
+  if (const auto* flag = std::get_if<bool*>(&row.value)) {
     check(text == "true" || text == "false", "parameter '" + name + "': '" + text + "' is neither true nor false");
     **flag = text == "true";
-  } else if (const auto* integer = std::get_if<int*>(&row->value)) {
+  } else if (const auto* integer = std::get_if<int*>(&row.value)) {
     **integer = parseNumber<int>(name, text);
-  } else if (const auto* real = std::get_if<float*>(&row->value)) {
+  } else if (const auto* real = std::get_if<float*>(&row.value)) {
     **real = parseNumber<float>(name, text);
   } else {
-    *std::get<std::string*>(row->value) = text;
+    *std::get<std::string*>(row.value) = text;
   }
-  checkRange(*row);
+  checkRange(row);
 }
 
 void loadParameterFile(const ParameterTable& table, const std::string& path) {
@@ -130,6 +152,7 @@ void loadParameterFile(const ParameterTable& table, const std::string& path) {
 }
 
 std::string valueText(const Parameter& parameter) {
+  if (const auto* real = std::get_if<float*>(&parameter.value)) return shortestText(**real);
   std::ostringstream text;
   text << std::boolalpha;
   std::visit([&](const auto* value) { text << *value; }, parameter.value);

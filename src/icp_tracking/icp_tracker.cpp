@@ -158,6 +158,11 @@ IcpTracker::IcpTracker(ComputeContext& compute, const IcpTrackingParameters& par
 
 IcpTracker::~IcpTracker() = default;
 
+void IcpTracker::setParameters(const IcpTrackingParameters& parameters) {
+  validate(IcpTrackingParameters(parameters).table());
+  parameters_ = parameters;
+}
+
 MatchGates IcpTracker::gatesAt(int level) const {
   const float coarseness = static_cast<float>(level) / (DepthPreprocessor::kLevels - 1);
   const auto between = [&](float fine, float coarse) { return fine * std::pow(coarse / fine, coarseness); };

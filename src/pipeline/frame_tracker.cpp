@@ -28,6 +28,14 @@ FrameTracker::FrameTracker(ComputeContext& compute, const PipelineParameters& pa
       relocaliser_(parameters.relocalisation),
       matcher_(parameters.texture_odometry) {}
 
+void FrameTracker::setParameters(const PipelineParameters& parameters) {
+  preprocessor_.setParameters(parameters.preprocessing, parameters.depth_sensor);
+  tracker_.setParameters(parameters.icp_tracking);
+  relocaliser_.setParameters(parameters.relocalisation);
+  matcher_.setParameters(parameters.texture_odometry);
+  parameters_ = withinSensorRange(parameters);
+}
+
 TrackingResult FrameTracker::track(const RgbdFrame& frame, const TextureOdometryResult& motion,
                                    const FrameFeatures& features, const ModelView* view, StageTimers& timers,
                                    const Pose& start) {

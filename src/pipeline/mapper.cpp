@@ -22,6 +22,12 @@ Mapper::Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParam
   if (map.parameters().color) color_fusion_ = std::make_unique<ColorFusion>(compute, map, parameters.color_fusion);
 }
 
+void Mapper::setParameters(const PipelineParameters& parameters) {
+  fusion_.setParameters(parameters.tsdf_fusion);
+  if (color_fusion_) color_fusion_->setParameters(parameters.color_fusion);
+  parameters_ = withinSensorRange(parameters);
+}
+
 MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D, StageTimers& timers) {
   MappingResult result;
   if (map_.usage().blocks == 0) map_.reset(windowCentre(frame, parameters_.preprocessing, T_W_D));

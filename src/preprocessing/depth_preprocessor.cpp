@@ -23,31 +23,28 @@ SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParam
 }
 
 // With the range that the sensor's noise allows.
-PreprocessingParameters checked(PreprocessingParameters parameters, const CameraIntrinsics& camera,
-                                const DepthSensorParameters& sensor) {
-  validate(parameters.table());
-  validate(DepthSensorParameters(sensor).table());
+PreprocessingParameters limited(PreprocessingParameters parameters, const DepthSensorParameters& sensor) {
+  validateRange(parameters, sensor);
   parameters.max_range_m = std::min(parameters.max_range_m, sensor.maxRange_m());
-  check(parameters.min_range_m < parameters.max_range_m,
-        "preprocessing/min_range_m must be below preprocessing/max_range_m and the range of "
-        "depth_sensor/max_sigma_m");
+  return parameters;
+}
+
+const CameraIntrinsics& checked(const CameraIntrinsics& camera) {
   check(camera.valid(),
         "the depth camera's intrinsics are not valid; give them with --intrinsics fx,fy,cx,cy");
   check(std::min(camera.width, camera.height) >> (DepthPreprocessor::kLevels - 1) > 2,
         "depth images of " + sizeText(camera.width, camera.height) + " are too small");
-  return parameters;
+  return camera;
 }
 
-std::shared_ptr<DepthFrame> makeResult(ComputeContext& compute, const PreprocessingParameters& parameters,
-                                       CameraIntrinsics camera, const DepthSensorParameters& sensor) {
+std::shared_ptr<DepthFrame> makeResult(ComputeContext& compute, CameraIntrinsics camera) {
   auto result = std::make_shared<DepthFrame>();
   result->raw_depth = zeroImage(compute, camera, 1);
   result->measurements = zeroImage(compute, camera, 1);
-  result->depth_step_m = parameters.max_range_m / MEASUREMENT_DEPTH_MAX;
   result->max_tiles =
       DeviceBuffer(compute, sizeof(float) * tiles(camera.width) * tiles(camera.height), "depth tiles");
   for (int level = 0; level < DepthPreprocessor::kLevels; ++level) {
-    result->levels.push_back({camera, zeroImage(compute, camera, 1), zeroImage(compute, camera, 3), sensor});
+    result->levels.push_back({camera, zeroImage(compute, camera, 1), zeroImage(compute, camera, 3)});
     camera = halved(camera);
   }
   return result;
@@ -70,6 +67,14 @@ ParameterTable PreprocessingParameters::table() {
        "is computed"}};
 }
 
+void validateRange(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor) {
+  validate(PreprocessingParameters(parameters).table());
+  validate(DepthSensorParameters(sensor).table());
+  check(parameters.min_range_m < std::min(parameters.max_range_m, sensor.maxRange_m()),
+        "preprocessing/min_range_m must be below preprocessing/max_range_m and the range of "
+        "depth_sensor/max_sigma_m");
+}
+
 struct DepthPreprocessor::Kernels : DepthPreprocessingKernels {
   using DepthPreprocessingKernels::DepthPreprocessingKernels;
 };
@@ -77,10 +82,9 @@ struct DepthPreprocessor::Kernels : DepthPreprocessingKernels {
 DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const PreprocessingParameters& parameters,
                                      const CameraIntrinsics& camera, const DepthSensorParameters& sensor)
     : compute_(compute),
-      parameters_(checked(parameters, camera, sensor)),
-      results_([&compute, parameters = parameters_, camera, sensor] {
-        return makeResult(compute, parameters, camera, sensor);
-      }),
+      parameters_(limited(parameters, sensor)),
+      sensor_(sensor),
+      results_([&compute, camera = checked(camera)] { return makeResult(compute, camera); }),
       kernels_(std::make_unique<Kernels>(compute)) {
   const size_t pixels = static_cast<size_t>(camera.width) * camera.height;
   input_ = DeviceBuffer(compute, (pixels + 16) * sizeof(float), "the depth image");
@@ -89,8 +93,15 @@ DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const Preprocessin
 
 DepthPreprocessor::~DepthPreprocessor() = default;
 
+void DepthPreprocessor::setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor) {
+  parameters_ = limited(parameters, sensor);
+  sensor_ = sensor;
+}
+
 const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vector6d& velocity) {
   DepthFrame& result = *results_.next();
+  result.depth_step_m = parameters_.max_range_m / MEASUREMENT_DEPTH_MAX;
+  for (DepthLevel& level : result.levels) level.sensor = sensor_;
   const CameraIntrinsics& camera = result.levels[0].camera;
   const bool is_u16 = frame.depth.type() == CV_16UC1;
   check(is_u16 || frame.depth.type() == CV_32FC1, "depth images must hold 16-bit integers or 32-bit floats");

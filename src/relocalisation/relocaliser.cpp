@@ -60,6 +60,12 @@ Relocaliser::Relocaliser(const RelocalisationParameters& parameters) : parameter
   validate(parameters_.table());
 }
 
+void Relocaliser::setParameters(const RelocalisationParameters& parameters) {
+  validate(RelocalisationParameters(parameters).table());
+  parameters_ = parameters;
+  dropSurplus();
+}
+
 void Relocaliser::add(const FrameFeatures& features, const Pose& T_W_D) {
   if (!features.reason.empty() || parameters_.max_keyframes == 0) return;
   for (const Keyframe& keyframe : keyframes_) {
@@ -67,8 +73,13 @@ void Relocaliser::add(const FrameFeatures& features, const Pose& T_W_D) {
   }
   keyframes_.push_back({features, thumbnailOf(features), T_W_D});
   keyframes_.back().features.smoothed_levels.clear();
-  if (static_cast<int>(keyframes_.size()) <= parameters_.max_keyframes) return;
-  keyframes_.erase(keyframes_.begin() + mostCrowded(keyframes_, parameters_));
+  dropSurplus();
+}
+
+void Relocaliser::dropSurplus() {
+  while (static_cast<int>(keyframes_.size()) > parameters_.max_keyframes) {
+    keyframes_.erase(keyframes_.begin() + mostCrowded(keyframes_, parameters_));
+  }
 }
 
 std::vector<const Keyframe*> Relocaliser::candidates(const FrameFeatures& features) const {

@@ -118,6 +118,11 @@ TextureOdometry::TextureOdometry(const TextureOdometryParameters& parameters) : 
   reset();
 }
 
+void TextureOdometry::setParameters(const TextureOdometryParameters& parameters) {
+  validate(TextureOdometryParameters(parameters).table());
+  parameters_ = parameters;
+}
+
 void TextureOdometry::reset() {
   previous_ = {};
   previous_.reason = "the first frame";

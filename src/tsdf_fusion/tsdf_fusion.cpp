@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "depth_fusion/common/error.h"
 #include "map/map_args.h"
 #include "preprocessing/sensor_args.h"
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
@@ -60,14 +61,14 @@ FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& m
 
 ParameterTable FusionParameters::table() {
   return {
-      {"rule", &rule, 0.0, 0.0, "how measurements change a voxel", {"kalman", "weighted", "average"}},
+      {"rule", &rule, 0.0, 0.0, "how measurements change a voxel", {"kalman", "weighted", "average"}, true},
       {"distance",
        &distance,
        0.0,
        0.0,
        "from a voxel to the surface: along its ray, to the plane that the ray hits, or to the plane nearest "
        "to it",
-       {"projective", "plane", "refined"}},
+       {"projective", "plane", "refined"}, true},
       {"gain_at_1m", &gain_at_1m, 1e-3, 1.0,
        "average: gain (the paper's w_k) of a measurement at 1 m; falls with the variance"},
       {"weight_at_1m", &weight_at_1m, 0.1, 255.0,
@@ -93,6 +94,12 @@ TsdfFusion::TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const Fusio
       kernels_(std::make_unique<Kernels>(compute, map.parameters(), parameters_)) {}
 
 TsdfFusion::~TsdfFusion() = default;
+
+void TsdfFusion::setParameters(const FusionParameters& parameters) {
+  check(parameters.rule == parameters_.rule && parameters.distance == parameters_.distance,
+        "tsdf_fusion/rule and tsdf_fusion/distance cannot change while the map is built");
+  parameters_ = validated(parameters);
+}
 
 FusionResult TsdfFusion::integrate(const DepthFrame& frame, const Pose& T_W_D, StageTimers& timers) {
   FusionResult result;

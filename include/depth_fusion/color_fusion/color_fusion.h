@@ -42,6 +42,9 @@ class ColorFusion {
   ColorFusion(ComputeContext& compute, BlockSparseMap& map, const ColorFusionParameters& parameters);
   ~ColorFusion();
 
+  // For the frames to come.
+  void setParameters(const ColorFusionParameters& parameters);
+
   // Fuses the frame's colour, after its depth, into the first visible_count of the visible blocks. A frame
   // without a colour image that fits its camera changes nothing.
   ColorFusionResult integrate(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D,

@@ -16,21 +16,28 @@ struct Parameter {
   double maximum = 0.0;
   std::string help;
   std::vector<std::string> choices = {};
+  bool at_start_only = false;  // cannot change while a nodelet runs
 };
 
 using ParameterTable = std::vector<Parameter>;
 
+// The rows, marked at_start_only.
+ParameterTable atStartOnly(ParameterTable table);
+
 // The rows of `stage_table` with names prefixed by "<stage>/".
 ParameterTable withPrefix(const std::string& stage, ParameterTable stage_table);
 
-// Sets one parameter from text. Throws Error for an unknown name (naming the nearest known one), for text that
-// is no value of the parameter's type, and for a value out of range.
+// The row of that name. Throws Error for an unknown name, naming the nearest known one.
+const Parameter& findParameter(const ParameterTable& table, const std::string& name);
+
+// Sets one parameter from text. Throws Error for an unknown name, for text that is no value of the parameter's type,
+// and for a value out of range.
 void setParameter(const ParameterTable& table, const std::string& name, const std::string& text);
 
 // Sets all the parameters of a YAML file of the form `stage: {name: value}`. Throws Error naming the file.
 void loadParameterFile(const ParameterTable& table, const std::string& path);
 
-// The current value of a row as text.
+// The current value of a row as text: the shortest that setParameter reads as the same value.
 std::string valueText(const Parameter& parameter);
 
 // The values that a row takes, as text.

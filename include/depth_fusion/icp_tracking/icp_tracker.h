@@ -63,6 +63,9 @@ class IcpTracker {
   IcpTracker(ComputeContext& compute, const IcpTrackingParameters& parameters, const CameraIntrinsics& camera);
   ~IcpTracker();
 
+  // For the frames to come.
+  void setParameters(const IcpTrackingParameters& parameters);
+
   // Aligns the frame to the view, coarse to fine, starting from the prior. A prior with a covariance takes part in the
   // solution and fills the directions that geometry leaves free; without one, free directions mean that it is lost.
   TrackingResult track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior, StageTimers& timers);

@@ -17,6 +17,8 @@ class FrameTracker {
   FrameTracker(ComputeContext& compute, const PipelineParameters& parameters, const CameraIntrinsics& camera,
                RenderView render);
 
+  // For the frames to come. Throws Error if they do not fit together.
+  void setParameters(const PipelineParameters& parameters);
   // The frame's pose by its depth against `view`, the model view of the last fused frame (null before the first one: then
   // the frame gets the pose `start`). `motion` is that of `features`, the frame's, against the frame before. A lost
   // frame and those after it are tried against keyframes and against the last pose, until one fits. Every result

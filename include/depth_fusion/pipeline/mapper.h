@@ -22,6 +22,8 @@ class Mapper {
   Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParameters& parameters,
          const CameraIntrinsics& camera);
 
+  // For the frames to come; the map's stay. Throws Error for what cannot change.
+  void setParameters(const PipelineParameters& parameters);
   // Fuses `depth`, which is `frame` preprocessed. An empty map is first moved to where the frame looks.
   MappingResult fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D, StageTimers& timers);
 

@@ -25,6 +25,9 @@ struct PreprocessingParameters {
   ParameterTable table();
 };
 
+// Throws Error if a parameter lies outside its range, or no depth in the range of both.
+void validateRange(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
+
 // A level of the pyramid, on the device (image layout: kernels/shared/types.h).
 struct DepthLevel {
   CameraIntrinsics camera;
@@ -49,6 +52,8 @@ class DepthPreprocessor {
                     const CameraIntrinsics& camera, const DepthSensorParameters& sensor = {});
   ~DepthPreprocessor();
 
+  // For the frames to come. Throws as validateRange does, and changes nothing then.
+  void setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
   // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s); with it the depth becomes that
   // of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid until the next call.
   // Throws Error if the type or size of depth or weights is not the expected.
@@ -63,6 +68,7 @@ class DepthPreprocessor {
 
   ComputeContext& compute_;
   PreprocessingParameters parameters_;  // with the range that the sensor's noise allows
+  DepthSensorParameters sensor_;
   DeviceBuffer input_;
   DeviceBuffer skewed_depth_;
   DeviceBuffer weights_;  // empty until a frame has some

@@ -30,6 +30,9 @@ class Relocaliser {
  public:
   explicit Relocaliser(const RelocalisationParameters& parameters);
 
+  // For the frames to come; keyframes beyond max_keyframes go.
+  void setParameters(const RelocalisationParameters& parameters);
+
   // Keeps the frame as a keyframe if it has features and no keyframe is near. When there are too many, the one that
   // stands closest to another goes.
   void add(const FrameFeatures& features, const Pose& T_W_D);
@@ -41,6 +44,8 @@ class Relocaliser {
   const std::vector<Keyframe>& keyframes() const { return keyframes_; }
 
  private:
+  void dropSurplus();
+
   RelocalisationParameters parameters_;
   std::vector<Keyframe> keyframes_;
 };

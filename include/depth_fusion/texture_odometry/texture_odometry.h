@@ -50,6 +50,9 @@ class TextureOdometry {
  public:
   explicit TextureOdometry(const TextureOdometryParameters& parameters);
 
+  // For the frames to come.
+  void setParameters(const TextureOdometryParameters& parameters);
+
   // The motion against the frame of the last call.
   TextureOdometryResult process(const RgbdFrame& frame);
   void reset();

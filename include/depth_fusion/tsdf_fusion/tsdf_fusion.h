@@ -39,6 +39,9 @@ class TsdfFusion {
   TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const FusionParameters& parameters);
   ~TsdfFusion();
 
+  // For the frames to come. Throws Error if rule or distance are others than before.
+  void setParameters(const FusionParameters& parameters);
+
   // Fuses the frame's measurements, seen from T_W_D, into the map; allocates the blocks it needs and releases
   // those left empty.
   FusionResult integrate(const DepthFrame& frame, const Pose& T_W_D, StageTimers& timers);

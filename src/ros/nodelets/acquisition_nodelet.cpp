@@ -80,8 +80,7 @@ AcquisitionNodelet::~AcquisitionNodelet() {
 }
 
 void AcquisitionNodelet::start() {
-  loadParameters(
-      getPrivateNodeHandle(),
+  loadParameters(atStartOnly(
       {{"recording", &recording_path_, 0, 0, "a folder in the TUM or 7-Scenes layout, or a .bag file"},
        {"camera_file", &camera_file_, 0, 0, "camera file in place of the recording's; lens distortion is taken out"},
        {"depth_topic", &options_.depth_topic, 0, 0, "of a bag, instead of the one found"},
@@ -93,7 +92,7 @@ void AcquisitionNodelet::start() {
        {"publish_clock", &publish_clock_, 0, 1, "publish the stamps on /clock; for use_sim_time"},
        {"lossless", &lossless_, 0, 1, "the next frame waits until the one before is in the map, or lost"},
        {"lossless_timeout_s", &lossless_timeout_s_, 0.1, 3600.0, "how long it waits at most"},
-       {"settle_s", &settle_s_, 0.0, 60.0, "begin when no subscriber has come or gone for so long"}});
+       {"settle_s", &settle_s_, 0.0, 60.0, "begin when no subscriber has come or gone for so long"}}));
   check(!recording_path_.empty(), "give the parameter recording");
   if (!camera_file_.empty()) readCamera(camera_file_, options_);
   recording_ = openRecording(recording_path_, options_);

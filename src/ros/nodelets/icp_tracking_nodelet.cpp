@@ -33,7 +33,9 @@ class IcpTrackingNodelet : public StageNodelet {
   };
 
   void start() override;
-  void loadAll(RgbdParameters& rgbd, PoseParameters& pose);
+  void loadAll();
+  void applyParameters() override;
+  void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void receive(const TexturedFramePtr& frame);
   void receiveView(const MapViewMessage::ConstPtr& view);
 
@@ -55,6 +57,8 @@ class IcpTrackingNodelet : public StageNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
   PipelineParameters parameters_;
+  RgbdParameters rgbd_;
+  PoseParameters pose_;
   std::string device_, map_name_, on_clock_jump_ = "reset";
   bool use_texture_ = true;
   int queue_size_ = 1;
@@ -100,13 +104,11 @@ IcpTrackingNodelet::~IcpTrackingNodelet() {
 }
 
 void IcpTrackingNodelet::start() {
-  RgbdParameters rgbd;
-  PoseParameters pose;
-  loadAll(rgbd, pose);
+  loadAll();
   ros::NodeHandle& handle = getMTNodeHandle();
   ros::NodeHandle& private_handle = getMTPrivateNodeHandle();
   if (map_name_.empty()) map_name_ = handle.resolveName("tsdf_fusion");
-  pose_publisher_ = std::make_unique<PosePublisher>(handle, private_handle, pose);
+  pose_publisher_ = std::make_unique<PosePublisher>(handle, private_handle, pose_);
   frame_publisher_ = private_handle.advertise<TrackedFrameMessage>("frame", 10);
   status_publisher_ = private_handle.advertise<TrackerStatus>("status", 100);
   worker_ = std::make_unique<Worker<TexturedFramePtr>>(
@@ -127,7 +129,7 @@ void IcpTrackingNodelet::start() {
           NODELET_ERROR_THROTTLE(5.0, "texture_odometry runs in another process; load it in the same nodelet manager");
         });
   } else {
-    sensor_subscriber_ = std::make_unique<RgbdSubscriber>(handle, rgbd, counter_, [this](const SensorFramePtr& sensor) {
+    sensor_subscriber_ = std::make_unique<RgbdSubscriber>(handle, rgbd_, counter_, [this](const SensorFramePtr& sensor) {
       auto frame = std::make_shared<TexturedFrame>();
       frame->sensor = sensor;
       frame->motion.reason = frame->features.reason = "no texture odometry";
@@ -137,21 +139,26 @@ void IcpTrackingNodelet::start() {
   startReporting();
 }
 
-void IcpTrackingNodelet::loadAll(RgbdParameters& rgbd, PoseParameters& pose) {
+void IcpTrackingNodelet::loadAll() {
   ParameterTable table = parameters_.icp_tracking.table();
-  for (const ParameterTable& rows : {rgbd.table(), pose.table()}) table.insert(table.end(), rows.begin(), rows.end());
-  table.push_back({"device", &device_, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best"});
-  table.push_back({"map", &map_name_, 0, 0, "the nodelet that has the map; empty: tsdf_fusion beside this one"});
+  for (const ParameterTable& rows : {rgbd_.table(), pose_.table()}) table.insert(table.end(), rows.begin(), rows.end());
+  table.push_back({"device", &device_, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best", {}, true});
+  table.push_back({"map", &map_name_, 0, 0, "the nodelet that has the map; empty: tsdf_fusion beside this one", {}, true});
   table.push_back({"texture_odometry", &use_texture_, 0, 1,
-                   "true: frames come from texture_odometry; false: from the topics, with the last pose as the prior"});
-  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped"});
+                   "true: frames come from texture_odometry; false: from the topics, with the last pose as the prior", {}, true});
+  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true});
   table.push_back({"on_clock_jump", &on_clock_jump_, 0, 0,
                    "what a clock that goes back does to the map: begin anew, or keep it and find the sensor in it",
                    {"reset", "keep"}});
-  loadParameters(getPrivateNodeHandle(), table);
-  loadParameters(getNodeHandle(), "depth_sensor", parameters_.depth_sensor.table());
-  loadParameters(getNodeHandle(), "preprocessing", parameters_.preprocessing.table());
-  loadParameters(getNodeHandle(), "relocalisation", parameters_.relocalisation.table());
+  loadParameters(table, {{"depth_sensor", parameters_.depth_sensor.table()},
+                         {"preprocessing", parameters_.preprocessing.table()},
+                         {"relocalisation", parameters_.relocalisation.table()}});
+}
+
+void IcpTrackingNodelet::applyParameters() {
+  validateRange(parameters_.preprocessing, parameters_.depth_sensor);
+  if (tracker_ != nullptr) tracker_->setParameters(parameters_);
+  if (sensor_subscriber_ != nullptr) sensor_subscriber_->setParameters(rgbd_);
 }
 
 void IcpTrackingNodelet::receive(const TexturedFramePtr& frame) { worker_->push(frame); }

@@ -18,8 +18,8 @@ constexpr double kReleasePeriod_s = 0.02;
 }  // namespace
 
 ParameterTable RgbdParameters::table() {
-  return {{"depth_transport", &depth_transport, 0, 0, "of depth/image", {"raw", "compressedDepth", "compressed"}},
-          {"color_transport", &color_transport, 0, 0, "of rgb/image", {"raw", "compressed"}},
+  return {{"depth_transport", &depth_transport, 0, 0, "of depth/image", {"raw", "compressedDepth", "compressed"}, true},
+          {"color_transport", &color_transport, 0, 0, "of rgb/image", {"raw", "compressed"}, true},
           {"max_pairing_gap_s", &max_pairing_gap_s, 0.0, 1.0, "colour farther from its depth than this is left out"},
           {"max_color_wait_s", &max_color_wait_s, 0.0, 10.0, "how long a depth image waits for its colour"}};
 }
@@ -82,6 +82,11 @@ void RgbdSubscriber::subscribe(ros::NodeHandle& handle) {
         color_topic_, kTopicQueue,
         [this](const CompressedImageConstPtr& image) { onColor({image->header, nullptr, image}); });
   }
+}
+
+void RgbdSubscriber::setParameters(const RgbdParameters& parameters) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  parameters_ = parameters;
 }
 
 std::string RgbdSubscriber::problem() const {

@@ -38,6 +38,9 @@ class RgbdSubscriber {
   // Frames come in the order of their stamps, from the threads of the handle's callback queue.
   RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& parameters, FrameCounter& counter, Callback callback);
 
+  // For the images to come; the transports stay.
+  void setParameters(const RgbdParameters& parameters);
+
   // What hinders frames now, for diagnostics; empty if nothing does.
   std::string problem() const;
 

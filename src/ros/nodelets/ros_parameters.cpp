@@ -39,8 +39,4 @@ void loadParameters(const ros::NodeHandle& handle, const ParameterTable& table) 
   }
 }
 
-void loadParameters(const ros::NodeHandle& handle, const std::string& group, const ParameterTable& table) {
-  loadParameters(ros::NodeHandle(handle, group), table);
-}
-
 }  // namespace depth_fusion

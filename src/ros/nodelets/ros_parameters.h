@@ -13,7 +13,4 @@ namespace depth_fusion {
 // nearest one), of another type, or out of range.
 void loadParameters(const ros::NodeHandle& handle, const ParameterTable& table);
 
-// The same from the namespace `group` of the node handle's.
-void loadParameters(const ros::NodeHandle& handle, const std::string& group, const ParameterTable& table);
-
 }  // namespace depth_fusion

@@ -1,6 +1,7 @@
 #include "ros/nodelets/stage_nodelet.h"
 
 #include "depth_fusion/common/percentile.h"
+#include "ros/nodelets/ros_parameters.h"
 
 namespace depth_fusion {
 namespace {
@@ -18,6 +19,17 @@ void StageNodelet::onInit() {
   }
 }
 
+void StageNodelet::loadParameters(const ParameterTable& own,
+                                  const std::vector<std::pair<std::string, ParameterTable>>& stages) {
+  parameter_groups_ = {{"", getMTPrivateNodeHandle(), own}};
+  for (const auto& [name, table] : stages) {
+    parameter_groups_.push_back({name, ros::NodeHandle(getMTNodeHandle(), name), table});
+  }
+  default_parameters_ = makeConfig(parameter_groups_);
+  for (const ParameterGroup& group : parameter_groups_) depth_fusion::loadParameters(group.handle, group.table);
+  applyParameters();
+}
+
 void StageNodelet::startReporting() {
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
   timings_publisher_ = handle.advertise<StageTimings>("stage_timings", 1);
@@ -26,9 +38,16 @@ void StageNodelet::startReporting() {
   updater_->add("frames", this, &StageNodelet::diagnoseFrames);
   report_timer_ =
       handle.createWallTimer(ros::WallDuration(kReportPeriod_s), [this](const ros::WallTimerEvent&) { report(); });
+  reconfigure_server_ = std::make_unique<ReconfigureServer>(
+      parameter_groups_, default_parameters_,
+      ReconfigureServer::Nodelet{getName(), [this](const ReconfigureServer::Action& action) { betweenFrames(action); },
+                                 [this] { applyParameters(); }});
 }
 
-void StageNodelet::stopReporting() { report_timer_.stop(); }
+void StageNodelet::stopReporting() {
+  reconfigure_server_.reset();
+  report_timer_.stop();
+}
 
 void StageNodelet::recordTimings(const StageTimers& timers) {
   const std::lock_guard<std::mutex> lock(timers_mutex_);

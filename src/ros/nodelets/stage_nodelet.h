@@ -8,11 +8,13 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/stage_timers.h"
 #include "ros/nodelets/frame_counter.h"
-#include "ros/nodelets/ros_parameters.h"
+#include "ros/nodelets/reconfigure_server.h"
 
 namespace depth_fusion {
 
@@ -20,10 +22,19 @@ class StageNodelet : public nodelet::Nodelet {
  protected:
   // Loads parameters, subscribes and advertises; must return fast. Throws Error if it cannot work.
   virtual void start() = 0;
+  // Takes over parameters that have changed. Throws Error if they do not fit together.
+  virtual void applyParameters() {}
+  // Runs the action when no frame is at work, and returns when it is done.
+  virtual void betweenFrames(const std::function<void()>& action) { action(); }
   // Sets level and summary, and adds values. Called once a second.
   virtual void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) = 0;
 
-  // The last thing of start(): from here on diagnostics and timings go out.
+  // Fills the rows from the parameter server: the nodelet's own from its private namespace, those of the stages, which it may
+  // share with other nodelets, from the namespaces beside. Throws Error for what is unknown or does not fit.
+  void loadParameters(const ParameterTable& own,
+                      const std::vector<std::pair<std::string, ParameterTable>>& stages = {});
+
+  // The last thing of start(): from here on diagnostics and timings go out, and parameters may change.
   void startReporting();
   // The first thing of a destructor.
   void stopReporting();
@@ -38,6 +49,10 @@ class StageNodelet : public nodelet::Nodelet {
   void report();
   void diagnoseFrames(diagnostic_updater::DiagnosticStatusWrapper& status);
   void publishTimings();
+
+  std::vector<ParameterGroup> parameter_groups_;
+  dynamic_reconfigure::Config default_parameters_;
+  std::unique_ptr<ReconfigureServer> reconfigure_server_;
 
   std::mutex timers_mutex_;
   StageTimers timers_;        // since the last report

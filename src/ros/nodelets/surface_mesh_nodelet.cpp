@@ -79,7 +79,7 @@ void SurfaceMeshNodelet::loadAll() {
   table.push_back({"publish_rate_hz", &publish_rate_hz_, 0.1, 30.0, "of updates of the markers"});
   table.push_back(
       {"points_rate_hz", &points_rate_hz_, 0.01, 30.0, "of the points and the blocks' boxes, at most"});
-  loadParameters(getPrivateNodeHandle(), table);
+  loadParameters(table);
 }
 
 void SurfaceMeshNodelet::advertise() {

@@ -19,11 +19,14 @@ class TextureOdometryNodelet : public StageNodelet {
 
  private:
   void start() override;
+  void applyParameters() override;
+  void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void process(const SensorFramePtr& sensor);
   void publishOdometry(const TexturedFrame& frame);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
   TextureOdometryParameters parameters_;
+  RgbdParameters rgbd_;
   std::string odom_frame_ = "texture_odom";
   int queue_size_ = 3;
   std::unique_ptr<TextureOdometry> odometry_;
@@ -38,12 +41,11 @@ class TextureOdometryNodelet : public StageNodelet {
 };
 
 void TextureOdometryNodelet::start() {
-  RgbdParameters rgbd;
   ParameterTable table = parameters_.table();
-  for (const Parameter& row : rgbd.table()) table.push_back(row);
-  table.push_back({"odom_frame", &odom_frame_, 0, 0, "frame of the odometry: where the sensor was in the first frame"});
-  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped"});
-  loadParameters(getPrivateNodeHandle(), table);
+  for (const Parameter& row : rgbd_.table()) table.push_back(row);
+  table.push_back({"odom_frame", &odom_frame_, 0, 0, "frame of the odometry: where the sensor was in the first frame", {}, true});
+  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true});
+  loadParameters(table);
   odometry_ = std::make_unique<TextureOdometry>(parameters_);
 
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
@@ -52,9 +54,14 @@ void TextureOdometryNodelet::start() {
   worker_ = std::make_unique<Worker<SensorFramePtr>>(
       queue_size_, [this](const SensorFramePtr& frame) { process(frame); },
       [this](const SensorFramePtr&) { counter_.drop("too slow"); });
-  subscriber_ = std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd, counter_,
+  subscriber_ = std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, counter_,
                                                  [this](const SensorFramePtr& frame) { worker_->push(frame); });
   startReporting();
+}
+
+void TextureOdometryNodelet::applyParameters() {
+  if (odometry_ != nullptr) odometry_->setParameters(parameters_);
+  if (subscriber_ != nullptr) subscriber_->setParameters(rgbd_);
 }
 
 void TextureOdometryNodelet::process(const SensorFramePtr& sensor) {

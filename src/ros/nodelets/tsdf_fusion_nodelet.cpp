@@ -31,9 +31,11 @@ class TsdfFusionNodelet : public StageNodelet {
   };
 
   void start() override;
-  void loadAll(RgbdParameters& rgbd);
+  void loadAll();
+  void applyParameters() override;
+  void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void subscribeTracker();
-  void subscribeSensor(const RgbdParameters& rgbd);
+  void subscribeSensor();
   void receiveWithPose(const SensorFrameMessage::ConstPtr& message);
 
   // In the worker's thread:
@@ -52,6 +54,7 @@ class TsdfFusionNodelet : public StageNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
   PipelineParameters parameters_;
+  RgbdParameters rgbd_;
   std::string device_, map_frame_ = "map", tracking_ = "internal", on_clock_jump_ = "reset", picture_ = "shaded";
   int queue_size_ = 2, tf_queue_size_ = 30;
   float picture_rate_hz_ = 10.0f;
@@ -91,8 +94,7 @@ TsdfFusionNodelet::~TsdfFusionNodelet() {
 }
 
 void TsdfFusionNodelet::start() {
-  RgbdParameters rgbd;
-  loadAll(rgbd);
+  loadAll();
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
   map_ = std::make_shared<SharedMap>(sharedCompute(device_), parameters_.map);
   map_->frame_id = map_frame_;
@@ -108,32 +110,40 @@ void TsdfFusionNodelet::start() {
   if (tracking_ == "internal") {
     subscribeTracker();
   } else {
-    subscribeSensor(rgbd);
+    subscribeSensor();
   }
   reset_server_ = handle.advertiseService("reset_volume", &TsdfFusionNodelet::serveReset, this);
   mode_server_ = handle.advertiseService("set_mode", &TsdfFusionNodelet::serveMode, this);
   startReporting();
 }
 
-void TsdfFusionNodelet::loadAll(RgbdParameters& rgbd) {
+void TsdfFusionNodelet::loadAll() {
   ParameterTable table = parameters_.tsdf_fusion.table();
-  for (const Parameter& row : rgbd.table()) table.push_back(row);
-  table.push_back({"device", &device_, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best"});
-  table.push_back({"map_frame", &map_frame_, 0, 0, "frame of the map"});
+  for (const Parameter& row : rgbd_.table()) table.push_back(row);
+  table.push_back({"device", &device_, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best", {}, true});
+  table.push_back({"map_frame", &map_frame_, 0, 0, "frame of the map", {}, true});
   table.push_back({"tracking", &tracking_, 0, 0,
                    "internal: frames with poses from icp_tracking; external: frames from the topics, poses from tf at their stamps",
-                   {"internal", "external"}});
-  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames with poses that wait at most; the oldest are dropped"});
-  table.push_back({"tf_queue_size", &tf_queue_size_, 1, 10000, "external: frames that wait for their pose at most"});
+                   {"internal", "external"}, true});
+  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames with poses that wait at most; the oldest are dropped", {}, true});
+  table.push_back({"tf_queue_size", &tf_queue_size_, 1, 10000, "external: frames that wait for their pose at most", {}, true});
   table.push_back({"on_clock_jump", &on_clock_jump_, 0, 0,
                    "external: what a clock that goes back does to the map", {"reset", "keep"}});
   table.push_back({"picture", &picture_, 0, 0, "of the model view, on model_view/image", {"shaded", "colored"}});
   table.push_back({"picture_rate_hz", &picture_rate_hz_, 0.1, 100.0, "at most"});
-  loadParameters(getPrivateNodeHandle(), table);
-  loadParameters(getNodeHandle(), "map", parameters_.map.table());
-  loadParameters(getNodeHandle(), "depth_sensor", parameters_.depth_sensor.table());
-  loadParameters(getNodeHandle(), "preprocessing", parameters_.preprocessing.table());
-  loadParameters(getNodeHandle(), "color_fusion", parameters_.color_fusion.table());
+  loadParameters(table, {{"map", parameters_.map.table()},
+                         {"depth_sensor", parameters_.depth_sensor.table()},
+                         {"preprocessing", parameters_.preprocessing.table()},
+                         {"color_fusion", parameters_.color_fusion.table()}});
+}
+
+void TsdfFusionNodelet::applyParameters() {
+  validateRange(parameters_.preprocessing, parameters_.depth_sensor);
+  if (sensor_subscriber_ != nullptr) sensor_subscriber_->setParameters(rgbd_);
+  if (map_ == nullptr) return;
+  const std::lock_guard<std::mutex> lock(map_->mutex);
+  if (mapper_ != nullptr) mapper_->setParameters(parameters_);
+  if (preprocessor_ != nullptr) preprocessor_->setParameters(parameters_);
 }
 
 void TsdfFusionNodelet::subscribeTracker() {
@@ -147,7 +157,7 @@ void TsdfFusionNodelet::subscribeTracker() {
       });
 }
 
-void TsdfFusionNodelet::subscribeSensor(const RgbdParameters& rgbd) {
+void TsdfFusionNodelet::subscribeSensor() {
   tf_ = std::make_unique<tf2_ros::Buffer>();
   tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_, getMTNodeHandle());
   tf_filter_ = std::make_unique<tf2_ros::MessageFilter<SensorFrameMessage>>(*tf_, map_frame_, tf_queue_size_,
@@ -163,7 +173,7 @@ void TsdfFusionNodelet::subscribeSensor(const RgbdParameters& rgbd) {
         problem_ = "no pose on tf: " + why;
       });
   sensor_subscriber_ =
-      std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd, counter_, [this](const SensorFramePtr& sensor) {
+      std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, counter_, [this](const SensorFramePtr& sensor) {
         tf_filter_->add(makeMessage<SensorFrame>(sensor->header, sensor));
       });
 }

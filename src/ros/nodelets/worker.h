@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <thread>
 
@@ -46,6 +47,18 @@ class Worker {
     for (const Item& old : dropped) drop_(old);
   }
 
+  // Runs the action in the thread, before the next item; returns when it is done. Throws what it throws.
+  void between(const std::function<void()>& action) {
+    std::packaged_task<void()> task(action);
+    std::future<void> done = task.get_future();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      actions_.push_back(std::move(task));
+    }
+    changed_.notify_all();
+    done.get();
+  }
+
   size_t waiting() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return items_.size();
@@ -55,14 +68,26 @@ class Worker {
   void run() {
     std::unique_lock<std::mutex> lock(mutex_);
     while (true) {
-      changed_.wait(lock, [this] { return stopping_ || !items_.empty(); });
+      changed_.wait(lock, [this] { return stopping_ || !items_.empty() || !actions_.empty(); });
       if (stopping_) return;
-      const Item item = items_.front();
-      items_.pop_front();
-      lock.unlock();
-      work_(item);
+      if (actions_.empty()) {
+        const Item item = take(items_);
+        lock.unlock();
+        work_(item);
+      } else {
+        std::packaged_task<void()> action = take(actions_);
+        lock.unlock();
+        action();
+      }
       lock.lock();
     }
+  }
+
+  template <class T>
+  static T take(std::deque<T>& queue) {
+    T first = std::move(queue.front());
+    queue.pop_front();
+    return first;
   }
 
   const size_t capacity_;
@@ -70,6 +95,7 @@ class Worker {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Item> items_;
+  std::deque<std::packaged_task<void()>> actions_;
   bool stopping_ = false;
   std::thread thread_;  // last: it uses the others
 };
