@@ -1,8 +1,13 @@
 // A bag through the real roscore, rosbag play and nodelet manager; the launch file has the nodelets.
-#include <cstdlib>
-
+#include <depth_fusion/ExportMesh.h>
+#include <depth_fusion/SetMode.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <cstdlib>
+#include <thread>
+
+#include "depth_fusion/evaluation/mesh_error.h"
+#include "depth_fusion/surface_mesh/ply.h"
 #include "ros/recording.h"
 #include "support/nodelet_graph.h"
 #include "support/temporary_folder.h"
@@ -16,6 +21,13 @@ uint64_t droppedOf(const FrameAccount& account) {
   uint64_t sum = 0;
   for (const uint64_t frames : account.dropped) sum += frames;
   return sum;
+}
+
+void expectModeIsServed(ros::NodeHandle& handle) {
+  SetMode service;
+  service.request.mode = SetMode::Request::MAPPING;
+  EXPECT_TRUE(handle.serviceClient<SetMode>("tsdf_fusion/set_mode").call(service));
+  EXPECT_TRUE(service.response.success);
 }
 
 TEST(Replay, ABagBecomesPosesAndAMapAndNoFrameIsUnaccountedFor) {
@@ -38,8 +50,13 @@ TEST(Replay, ABagBecomesPosesAndAMapAndNoFrameIsUnaccountedFor) {
   Listener<MapStatus> map(handle, "tsdf_fusion/status");
   ASSERT_TRUE(eventually([&] { return tracker.connected() && map.connected(); }));
   ros::WallDuration(2.0).sleep();  // until the nodelets have found each other
-  // Slowly, for the test machine has more to do.
-  ASSERT_EQ(std::system(("rosbag play --quiet --clock --delay=1 --rate=0.2 " + path).c_str()), 0);
+  // Slowly, for the test machine has more to do; the services are called meanwhile.
+  std::thread player([&] {
+    EXPECT_EQ(std::system(("rosbag play --quiet --clock --delay=1 --rate=0.2 " + path).c_str()), 0);
+  });
+  EXPECT_NE(map.awaitStamp(toRosTime(frames[10].stamp_s)), nullptr);
+  expectModeIsServed(handle);
+  player.join();
 
   const ros::Time last = toRosTime(frames.back().stamp_s);
   ASSERT_NE(tracker.awaitStamp(last), nullptr);
@@ -60,6 +77,17 @@ TEST(Replay, ABagBecomesPosesAndAMapAndNoFrameIsUnaccountedFor) {
   const Pose error = (frames.front().T_W_D->inverse() * *frames.back().T_W_D).inverse() * motion;
   EXPECT_LT(error.translation().norm(), 0.01);
   EXPECT_LT(rotationAngle(error), 0.0087);
+
+  ros::ServiceClient client = handle.serviceClient<ExportMesh>("surface_mesh/export_mesh");
+  ASSERT_TRUE(client.waitForExistence(ros::Duration(kPatience_s)));
+  ExportMesh mesh;
+  mesh.request.path = folder / "room.ply";
+  ASSERT_TRUE(client.call(mesh));
+  ASSERT_TRUE(mesh.response.success) << mesh.response.message;
+  const Pose T_W_map = *frames.front().T_W_D * pose(frames.front()).inverse();
+  const MeshError surface =
+      compareMesh(readPly(mesh.request.path), T_W_map, SimulatedRecording(smallRoom(kFrames)).scene().surface);
+  EXPECT_LT(surface.surface_m.mean, 0.002);
 }
 
 }  // namespace
