@@ -12,13 +12,19 @@ namespace {
 
 using visualization_msgs::Marker;
 
-// Light of two colours, from above and before and from the other side, so that every edge is seen.
+// How much light from there a surface gets; softer than Lambert's cosine, so that noise in walls hardly shows.
+float received(const Eigen::Vector3f& light, const Eigen::Vector3f& normal) {
+  const float half_lambert = 0.5f + 0.5f * normal.dot(light);
+  return half_lambert * half_lambert;
+}
+
+// Two lights of different colours, so that surfaces that face different ways look different.
 MeshColor shadeOf(const Eigen::Vector3f& normal) {
-  const Eigen::Vector3f key = Eigen::Vector3f(-0.45f, 0.35f, 0.82f).normalized();
-  const Eigen::Vector3f fill = Eigen::Vector3f(0.7f, -0.6f, -0.2f).normalized();
-  const Eigen::Vector3f color = Eigen::Vector3f(0.22f, 0.24f, 0.28f) +
-                                std::max(0.0f, normal.dot(key)) * Eigen::Vector3f(0.66f, 0.63f, 0.56f) +
-                                std::max(0.0f, normal.dot(fill)) * Eigen::Vector3f(0.20f, 0.28f, 0.40f);
+  const Eigen::Vector3f key = Eigen::Vector3f(-0.5f, 0.35f, 0.8f).normalized();
+  const Eigen::Vector3f fill = Eigen::Vector3f(0.6f, -0.8f, -0.1f).normalized();
+  const Eigen::Vector3f color = Eigen::Vector3f(0.10f, 0.11f, 0.14f) +
+                                received(key, normal) * Eigen::Vector3f(0.82f, 0.78f, 0.70f) +
+                                received(fill, normal) * Eigen::Vector3f(0.16f, 0.26f, 0.42f);
   MeshColor rgb;
   for (int channel = 0; channel < 3; ++channel)
     rgb[channel] = static_cast<uint8_t>(std::lround(255.0f * std::min(1.0f, color[channel])));

@@ -12,6 +12,8 @@ namespace {
 
 #ifdef DEPTH_FUSION_HAS_MESHOPTIMIZER
 
+constexpr bool kCanSimplify = true;
+
 static_assert(sizeof(MeshTriangle) == 3 * sizeof(unsigned int), "a triangle is three indices");
 
 std::vector<MeshTriangle> fewerTriangles(const TriangleMesh& mesh, double ratio, OpenBorders borders) {
@@ -29,6 +31,8 @@ std::vector<MeshTriangle> fewerTriangles(const TriangleMesh& mesh, double ratio,
 
 #else
 
+constexpr bool kCanSimplify = false;
+
 std::vector<MeshTriangle> fewerTriangles(const TriangleMesh&, double, OpenBorders) {
   throw Error(
       "this depth_fusion was built without meshoptimizer, which simplifies meshes; install "
@@ -39,6 +43,8 @@ std::vector<MeshTriangle> fewerTriangles(const TriangleMesh&, double, OpenBorder
 #endif
 
 }  // namespace
+
+bool canSimplify() { return kCanSimplify; }
 
 TriangleMesh simplified(const TriangleMesh& mesh, double ratio, OpenBorders borders) {
   check(ratio > 0.0 && ratio <= 1.0,

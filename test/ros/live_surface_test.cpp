@@ -237,6 +237,23 @@ TEST_F(LiveSurfaceTest, anotherMapTakesTheFirstsPlace) {
   EXPECT_TRUE(eventually([&] { return !map_.isFollowed(); }, 30.0));
 }
 
+TEST_F(LiveSurfaceTest, parametersChangeMeanwhile) {
+  load();
+  Screen screen(graph_.handle(), "surface_mesh/markers");
+  map_.show(twoBalls());
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+  const size_t markers = screen.markers().size();
+  dynamic_reconfigure::Reconfigure call;
+  dynamic_reconfigure::IntParameter chunk_blocks;
+  chunk_blocks.name = "chunk_blocks";
+  chunk_blocks.value = 8;
+  call.request.config.ints.push_back(chunk_blocks);
+  ASSERT_TRUE(ros::service::call(graph_.resolve("surface_mesh") + "/set_parameters", call));
+  EXPECT_TRUE(
+      eventually([&] { return !screen.markers().empty() && screen.markers().size() < markers; }, 30.0));
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+}
+
 TEST_F(LiveSurfaceTest, pointsLieOnTheSurface) {
   load();
   map_.show(ball({0.0, 0.0, 0.0}, 0.08));

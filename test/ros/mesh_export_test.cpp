@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "depth_fusion/surface_mesh/ply.h"
+#include "depth_fusion/surface_mesh/simplification.h"
 #include "support/nodelet_graph.h"
 #include "support/offered_map.h"
 #include "support/temporary_folder.h"
@@ -81,8 +82,8 @@ TEST_F(MeshExport, simplifiesOnRequest) {
   OfferedMap map(graph_.resolve("tsdf_fusion"));
   map.show(ball({0.0, 0.0, 0.0}, 0.08));
   load();
+  if (!canSimplify()) return expectRefusal(call("ball.ply", 0.1), {"libmeshoptimizer-dev"});
   const ExportMesh::Response response = call("ball.ply", 0.1);
-  if (response.message.find("libmeshoptimizer") != std::string::npos) GTEST_SKIP() << response.message;
   ASSERT_TRUE(response.success) << response.message;
   EXPECT_LE(response.triangles, map.mesh().triangles.size() / 10);
   EXPECT_EQ(readPly(response.message).triangles.size(), response.triangles);
@@ -116,37 +117,37 @@ TEST_F(MeshExport, refusesWithoutAMap) {
   expectRefusal(call("mesh.ply"), {"no map", graph_.resolve("tsdf_fusion")});
 }
 
-// Frames come at their rate while the mesh is exported again and again: all of them are fused, and no file is
-// half of one.
+// Frames come while the mesh is exported: both go on at the same time, all frames are fused, and the file is
+// whole.
 TEST_F(MeshExport, answersWhileDataFlows) {
   constexpr int kFrames = 40;
+  for (const char* nodelet : {"texture_odometry", "icp_tracking", "tsdf_fusion"})
+    graph_.handle().setParam(std::string(nodelet) + "/queue_size", kFrames);
   graph_.handle().setParam("icp_tracking/level_start", false);
-  graph_.handle().setParam("icp_tracking/queue_size", kFrames);
-  graph_.handle().setParam("tsdf_fusion/queue_size", kFrames);
-  graph_.handle().setParam("texture_odometry/queue_size", kFrames);
   Listener<MapStatus> map_status(graph_.handle(), "tsdf_fusion/status");
   graph_.loadTracking();
   load();
   FakeCamera camera(graph_.handle());
   ASSERT_TRUE(camera.awaitSubscribers());
-  size_t exports = 0, last_triangles = 0;
-  std::thread viewer([&] {
+  size_t fused_meanwhile = 0;
+  std::thread user([&] {
     ASSERT_TRUE(map_status.awaitCount(5));
-    for (; map_status.count() < kFrames; ++exports) {
+    do {
+      const size_t before = map_status.count();
       const ExportMesh::Response response = call("room.ply");
+      fused_meanwhile += map_status.count() - before;
       ASSERT_TRUE(response.success) << response.message;
-      last_triangles = readPly(response.message).triangles.size();
-      EXPECT_EQ(last_triangles, response.triangles);
-    }
+      EXPECT_GT(response.triangles, 10000u);
+      EXPECT_EQ(readPly(response.message).triangles.size(), response.triangles);
+    } while (map_status.count() < kFrames);
   });
   for (const RgbdFrame& frame : simulatedFrames(smallRoom(kFrames))) {
     camera.publish(frame);
     ros::WallDuration(1.0 / 15.0).sleep();
   }
-  EXPECT_TRUE(map_status.awaitCount(kFrames, 60.0));
-  viewer.join();
-  EXPECT_GT(exports, 1u);
-  EXPECT_GT(last_triangles, 10000u);
+  EXPECT_TRUE(map_status.awaitCount(kFrames));
+  user.join();
+  EXPECT_GT(fused_meanwhile, 0u);
   for (const auto& status : map_status.all()) EXPECT_TRUE(status->fused) << status->reason;
 }
 

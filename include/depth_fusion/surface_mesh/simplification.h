@@ -9,6 +9,9 @@ namespace depth_fusion {
 // must stay.
 enum class OpenBorders { kMayMove, kStay };
 
+// Whether depth_fusion was built with meshoptimizer, which does it.
+bool canSimplify();
+
 // The share `ratio`, above 0 and up to 1, of the mesh's triangles, or as few more as its topology allows:
 // edges collapse where that moves the surface least. The vertices left keep position, normal and colour. All
 // of it happens in memory. Throws Error for another ratio, and for one below 1 where depth_fusion was built

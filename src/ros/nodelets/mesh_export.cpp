@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Mapping waits for one batch at most.
-constexpr int kBatchBlocks = 512;
+constexpr int kBatchBlocks = 256;
 
 constexpr const char* kNoSurface = "the map has no surface yet; nothing was written";
 

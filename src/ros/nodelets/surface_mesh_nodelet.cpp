@@ -5,6 +5,7 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
+#include "depth_fusion/surface_mesh/simplification.h"
 #include "ros/nodelets/live_surface.h"
 #include "ros/nodelets/mesh_export.h"
 #include "ros/nodelets/stage_nodelet.h"
@@ -18,9 +19,10 @@ class SurfaceMeshNodelet : public StageNodelet {
 
  private:
   void start() override;
-  void loadAll();
   void applyParameters() override;
   void betweenFrames(const std::function<void()>& action) override;
+  void loadAll();
+  void checkParameters() const;
   void advertise();
   // The map of the nodelet tsdf_fusion; null without one.
   std::shared_ptr<SharedMap> findFusionMap() const { return findMap(map_name_); }
@@ -36,14 +38,14 @@ class SurfaceMeshNodelet : public StageNodelet {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
-  std::mutex parameters_mutex_;  // held for an update, and to change them
+  std::mutex work_mutex_;  // held during an update, and while parameters change
   SurfaceMeshParameters mesh_;
   LiveSurfaceParameters live_;
   float publish_rate_hz_ = 2.0f;
   float points_rate_hz_ = 1.0f;
   std::string map_name_;
 
-  std::unique_ptr<LiveSurface> surface_;  // as long as somebody looks
+  std::unique_ptr<LiveSurface> surface_;  // while somebody looks
   ros::WallTime last_points_, last_blocks_;
   std::atomic<bool> has_late_viewer_{false};
 
@@ -67,6 +69,7 @@ SurfaceMeshNodelet::~SurfaceMeshNodelet() {
 
 void SurfaceMeshNodelet::start() {
   loadAll();
+  checkParameters();
   if (map_name_.empty()) map_name_ = getNodeHandle().resolveName("tsdf_fusion");
   advertise();
   update_timer_ = getMTPrivateNodeHandle().createWallTimer(ros::WallDuration(1.0 / publish_rate_hz_),
@@ -77,21 +80,33 @@ void SurfaceMeshNodelet::start() {
 void SurfaceMeshNodelet::loadAll() {
   ParameterTable table = mesh_.table();
   for (const Parameter& row : live_.table()) table.push_back(row);
-  table.push_back(
-      {"map", &map_name_, 0, 0, "the nodelet that has the map; empty: tsdf_fusion beside this one", {}, true});
+  table.push_back({"map",
+                   &map_name_,
+                   0,
+                   0,
+                   "the nodelet that has the map; empty: tsdf_fusion beside this one",
+                   {},
+                   true});
   table.push_back({"publish_rate_hz", &publish_rate_hz_, 0.1, 30.0, "of updates of the markers"});
   table.push_back(
       {"points_rate_hz", &points_rate_hz_, 0.01, 30.0, "of the points and the blocks' boxes, at most"});
   loadParameters(table);
 }
 
+void SurfaceMeshNodelet::checkParameters() const {
+  check(
+      live_.triangle_share == 1.0f || canSimplify(),
+      "triangle_share must be 1: this depth_fusion was built without meshoptimizer, which simplifies meshes");
+}
+
 void SurfaceMeshNodelet::applyParameters() {
-  surface_.reset();  // the next one is shown as a whole
+  checkParameters();
+  surface_.reset();  // the next update shows all of it anew
   update_timer_.setPeriod(ros::WallDuration(1.0 / publish_rate_hz_));
 }
 
 void SurfaceMeshNodelet::betweenFrames(const std::function<void()>& action) {
-  const std::lock_guard<std::mutex> lock(parameters_mutex_);
+  const std::lock_guard<std::mutex> lock(work_mutex_);
   action();
 }
 
@@ -109,9 +124,9 @@ void SurfaceMeshNodelet::advertise() {
 }
 
 void SurfaceMeshNodelet::update() {
-  const std::lock_guard<std::mutex> parameters_lock(parameters_mutex_);
   std::string problem;
   try {
+    const std::lock_guard<std::mutex> lock(work_mutex_);
     const std::shared_ptr<SharedMap> map = findFusionMap();
     publishSurface(map, marker_publisher_.getNumSubscribers() > 0, point_publisher_.getNumSubscribers() > 0);
     if (map != nullptr && block_publisher_.getNumSubscribers() > 0) publishBlocks(*map);
@@ -179,9 +194,9 @@ ExportMesh::Response SurfaceMeshNodelet::exportNow(const ExportMesh::Request& re
     const std::shared_ptr<SharedMap> map = findFusionMap();
     check(map != nullptr, "no map of " + map_name_ +
                               " in this process; load tsdf_fusion in the same nodelet manager, or set ~map");
-    SurfaceMeshParameters mesh;
-    betweenFrames([&] { mesh = mesh_; });
-    response = exportMesh(*map, request, mesh);
+    SurfaceMeshParameters parameters;
+    betweenFrames([&] { parameters = mesh_; });
+    response = exportMesh(*map, request, parameters);
   }
   recordTimings(timers);
   return response;
