@@ -1,11 +1,12 @@
 // Ray casting of the block-sparse map in two stages, as the paper has it: raycast_coarse finds the voxel where a ray
 // first goes from positive to negative distance, raycast_fine the surface in it by trilinear interpolation, and its
 // normal. Rays are parametrised by depth t (z in frame D): p(t) = origin + t * direction, in voxels from the first voxel
-// of the window, so that the conversion to integers, which truncates, rounds down. A work-item casts SIMD_WIDTH rays of
-// a row.
+// of the window, so that the conversion to integers, which truncates, rounds down. A work-item casts SIMD_WIDTH rays: of a
+// patch in raycast_coarse, for rays side by side in both axes end alike, and of a row in raycast_fine.
 #include "shared/block_map.h"
 #include "shared/image.h"
 #define MAX_STEPS 512
+#define PATCH_COLUMNS RAY_PATCH_COLUMNS(SIMD_WIDTH)
 
 typedef struct {
   float origin_x, origin_y, origin_z;
@@ -13,10 +14,10 @@ typedef struct {
   vfloat t_per_voxel;  // depth travelled in a voxel's length of the ray
 } Rays;
 
-inline Rays make_rays(vint u, int v, const CameraArgs camera, const TransformArgs T_W_D, const GridArgs grid) {
+inline Rays make_rays(vint u, vint v, const CameraArgs camera, const TransformArgs T_W_D, const GridArgs grid) {
   const float per_voxel = 1.0f / grid.voxel_size_m;
   const vfloat x = (TO_VFLOAT(u) - camera.cx) * (per_voxel / camera.fx);
-  const float y = (v - camera.cy) * (per_voxel / camera.fy);
+  const vfloat y = (TO_VFLOAT(v) - camera.cy) * (per_voxel / camera.fy);
   const float z = per_voxel;
   Rays rays;
   rays.origin_x = T_W_D.translation[0] * per_voxel - grid.origin[0] * BLOCK_SIZE;
@@ -53,21 +54,21 @@ inline vint in_window(vint block, int blocks_per_axis) { return AS_VUINT(block) 
 __kernel void raycast_coarse(__global const int *offsets, __global const char *voxels, __global const float *nearest,
                              __global const float *farthest, __global float *coarse, CameraArgs camera,
                              TransformArgs T_W_D, GridArgs grid) {
-  const int x = get_global_id(0) * SIMD_WIDTH;
-  const int y = get_global_id(1);
-  if (x >= camera.width) return;
-  const vint u = x + LANE_INDICES;
-  const Rays rays = make_rays(u, y, camera, T_W_D, grid);
+  const int x = get_global_id(0) * PATCH_COLUMNS;
+  const int y = get_global_id(1) * (SIMD_WIDTH / PATCH_COLUMNS);
+  if (x >= camera.width || y >= camera.height) return;
+  const vint u = x + LANE_INDICES % PATCH_COLUMNS;
+  const vint v = y + LANE_INDICES / PATCH_COLUMNS;
+  const Rays rays = make_rays(u, v, camera, T_W_D, grid);
   // blocks hold the points that round to their voxels
   const float origin_x = rays.origin_x + 0.5f, origin_y = rays.origin_y + 0.5f, origin_z = rays.origin_z + 0.5f;
   const vfloat inverse_x = inverse_direction(rays.direction_x);
   const vfloat inverse_y = inverse_direction(rays.direction_y);
   const vfloat inverse_z = inverse_direction(rays.direction_z);
   const int n = grid.blocks_per_axis;
-  const int tile_row = y / RANGE_TILE * ((camera.width + RANGE_TILE - 1) / RANGE_TILE);
-  const vint tile = tile_row + min(u, (vint)(camera.width - 1)) / RANGE_TILE;
-  const vfloat end = GATHER(vfloat, farthest, tile);
-  vfloat t = GATHER(vfloat, nearest, tile);
+  const int tile = y / RANGE_TILE * ((camera.width + RANGE_TILE - 1) / RANGE_TILE) + x / RANGE_TILE;
+  const vfloat end = farthest[tile];
+  vfloat t = nearest[tile];
   const float truncation_voxels = grid.truncation_m / grid.voxel_size_m;
   const vfloat t_per_step = rays.t_per_voxel * (truncation_voxels / TSDF_MAX);
   const vfloat chi_step_t = rays.t_per_voxel * fmax(1.0f, 0.75f * truncation_voxels);
@@ -117,7 +118,12 @@ __kernel void raycast_coarse(__global const int *offsets, __global const char *v
     t = next_t;
     active = active & (t < end);
   }
-  VSTORE(hit_t, coarse + pixel_index(x, y, camera));
+  float lanes[SIMD_WIDTH];
+  VSTORE(hit_t, lanes);
+  for (int i = 0; i < SIMD_WIDTH; ++i) {
+    const int row = y + i / PATCH_COLUMNS;
+    if (row < camera.height) coarse[pixel_index(x + i % PATCH_COLUMNS, row, camera)] = lanes[i];
+  }
 }
 
 // Offsets, along one axis, of the two voxels around a coordinate: of their blocks in the window (or outside), and in
@@ -190,7 +196,7 @@ __kernel void raycast_fine(__global const int *offsets, __global const char *vox
   const int y = get_global_id(1);
   if (x >= camera.width) return;
   const int index = pixel_index(x, y, camera);
-  const Rays rays = make_rays(x + LANE_INDICES, y, camera, T_W_D, grid);
+  const Rays rays = make_rays(x + LANE_INDICES, (vint)(y), camera, T_W_D, grid);
   vfloat t = VLOAD(coarse + index);
   const Sample sample = interpolate(rays.origin_x + t * rays.direction_x, rays.origin_y + t * rays.direction_y,
                                     rays.origin_z + t * rays.direction_z, t > 0.0f, offsets, voxels, grid);

@@ -38,6 +38,9 @@
 #define DEPTH_TILE 16
 #define RANGE_TILE 8
 
+// Columns of the patch of pixels whose rays a work-item casts; patches do not straddle tiles of ranges.
+#define RAY_PATCH_COLUMNS(simd_width) ((simd_width) == 1 ? 1 : 4)
+
 // Images are planar, IMAGE_GUARD elements, then rows of `pitch` elements, then IMAGE_GUARD elements. Guards and the
 // columns from width on, 16 at least, hold zeros: vectors may be loaded up to 16 elements beside the image.
 #define IMAGE_GUARD 16

@@ -24,8 +24,11 @@ void ModelViewRenderer::Kernels::splatBlockRanges(BlockSparseMap& map, DeviceBuf
 void ModelViewRenderer::Kernels::raycastCoarse(BlockSparseMap& map, const DeviceBuffer& nearest,
                                                const DeviceBuffer& farthest, DeviceBuffer& coarse,
                                                const ModelView& view) {
-  coarse_.run2d(vectorsAcross(view.camera, simd_width_), view.camera.height, map.offsets(), map.voxels(),
-                nearest, farthest, coarse, toArgs(view.camera), toArgs(view.T_W_D), gridArgs(map));
+  const int columns = RAY_PATCH_COLUMNS(simd_width_);
+  const int rows = simd_width_ / columns;
+  coarse_.run2d((view.camera.width + columns - 1) / columns, (view.camera.height + rows - 1) / rows,
+                map.offsets(), map.voxels(), nearest, farthest, coarse, toArgs(view.camera),
+                toArgs(view.T_W_D), gridArgs(map));
 }
 
 void ModelViewRenderer::Kernels::raycastFine(BlockSparseMap& map, const DeviceBuffer& coarse,
