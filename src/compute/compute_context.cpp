@@ -130,6 +130,21 @@ ComputeContext::ComputeContext(const std::string& choice, int simd_width) : impl
   throw Error("no usable OpenCL device" + refused + "; list them with --device list");
 }
 
+ComputeContext::ComputeContext(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+std::unique_ptr<ComputeContext> ComputeContext::anotherQueue() {
+  auto other = std::make_unique<Impl>();
+  other->device = impl_->device;
+  other->context = impl_->context;
+  other->queue = cl::CommandQueue(impl_->context, impl_->device);
+  other->info = impl_->info;
+  other->report = impl_->report;
+  other->simd_width = impl_->simd_width;
+  const std::lock_guard<std::mutex> lock(impl_->programs_mutex);
+  other->programs = impl_->programs;
+  return std::unique_ptr<ComputeContext>(new ComputeContext(std::move(other)));
+}
+
 ComputeContext::~ComputeContext() = default;
 
 const DeviceInfo& ComputeContext::device() const { return impl_->info; }

@@ -1,7 +1,9 @@
 // How meshes are exported: in batches, into sinks.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
+#include <thread>
 
 #include "depth_fusion/common/error.h"
 #include "support/surface_mesh_fixture.h"
@@ -73,6 +75,26 @@ TEST_P(SnapshotOfBlockSize, keepsTheSurfaceThatTheMapHad) {
   TriangleMesh without_colors = before;
   without_colors.colors.clear();
   EXPECT_TRUE(sameBytes(meshOf(*colorless), without_colors));
+}
+
+TEST_F(SurfaceMesh, snapshotIsExportedBesideOtherWork) {
+  BlockSparseMap map(compute(), parameters(8));
+  fillMap(map, sphere({0.001, 0.0, 0.0}, 0.08), Eigen::Vector3i::Constant(-4), 8);
+  const TriangleMesh before = meshOf(map);
+  const auto snapshot = map.snapshot();
+  snapshot->offsets().read<int>(1);
+  const auto queue = compute().anotherQueue();
+  std::atomic<bool> done{false};
+  std::thread mapping([&] {
+    for (; !done; compute().finish()) map.voxels().fill(0x01010101, map.voxels().bytes());
+  });
+  for (int i = 0; i < 5; ++i) {
+    TriangleMesh mesh;
+    exportSurfaceMesh(*queue, *snapshot, mesh);
+    EXPECT_TRUE(sameBytes(mesh, before));
+  }
+  done = true;
+  mapping.join();
 }
 
 TEST_F(SurfaceMesh, snapshotTakesMemoryForTheUsedSlotsOnly) {

@@ -26,6 +26,9 @@ class ComputeContext {
   // variable DEPTH_FUSION_DEVICE. Throws Error if no device fits, saying why each was refused.
   // simd_width: pixels or voxels that a work-item handles, 1, 8 or 16; 0 = 1 on GPUs, what the vector unit holds on CPUs.
   explicit ComputeContext(const std::string& choice = "", int simd_width = 0);
+  // A queue of its own on the same device: what runs there and what runs here do not wait for each other. Either may read
+  // the other's buffers once nothing is enqueued that changes them.
+  std::unique_ptr<ComputeContext> anotherQueue();
   ~ComputeContext();
   ComputeContext(const ComputeContext&) = delete;
   ComputeContext& operator=(const ComputeContext&) = delete;
@@ -40,6 +43,8 @@ class ComputeContext {
   Impl& impl() { return *impl_; }
 
  private:
+  explicit ComputeContext(std::unique_ptr<Impl> impl);
+
   std::unique_ptr<Impl> impl_;
 };
 

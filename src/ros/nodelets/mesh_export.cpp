@@ -1,5 +1,6 @@
 #include "ros/nodelets/mesh_export.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -12,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Mapping waits for one batch at most.
-constexpr int kBatchBlocks = 256;
+// On devices that run one kernel at a time, mapping waits for one of a batch at most.
+constexpr int kBatchBlocks = 512;
 
 constexpr const char* kNoSurface = "the map has no surface yet; nothing was written";
 
@@ -63,6 +64,17 @@ void checkFolder(const std::string& path) {
   check(!fs::is_directory(path), path + " is a folder; give the name of a file");
 }
 
+std::unique_ptr<BlockSparseMap> snapshotOf(SharedMap& map, bool with_color) {
+  std::unique_ptr<BlockSparseMap> snapshot;
+  {
+    const std::lock_guard<std::mutex> lock(map.mutex);
+    check(map.map.usage().blocks > 0, kNoSurface);
+    snapshot = map.map.snapshot(with_color);
+  }
+  snapshot->offsets().read<int>(1);  // returns when the copy is made
+  return snapshot;
+}
+
 }  // namespace
 
 std::string absolutePath(const std::string& path) {
@@ -78,21 +90,16 @@ ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& reque
   const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format);
   CountingSink sink(*file);
 
-  std::unique_ptr<BlockSparseMap> snapshot;
-  {
-    const std::lock_guard<std::mutex> lock(map.mutex);
-    check(map.map.usage().blocks > 0, kNoSurface);
-    snapshot = map.map.snapshot(request.color);
-  }
+  const std::unique_ptr<BlockSparseMap> snapshot = snapshotOf(map, request.color);
+  const std::unique_ptr<ComputeContext> queue = map.compute->anotherQueue();
   SurfaceMeshParameters batches = parameters;
   batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);
   if (share < 1.0) {
     TriangleMesh mesh;
-    exportSurfaceMesh(*map.compute, *snapshot, mesh, batches);
-    snapshot.reset();
+    exportSurfaceMesh(*queue, *snapshot, mesh, batches);
     sendMesh(simplified(mesh, share), sink);
   } else {
-    exportSurfaceMesh(*map.compute, *snapshot, sink, batches);
+    exportSurfaceMesh(*queue, *snapshot, sink, batches);
   }
 
   ExportMesh::Response response;
