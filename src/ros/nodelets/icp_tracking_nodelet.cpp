@@ -263,13 +263,16 @@ void IcpTrackingNodelet::catchUp(const SensorFrame& frame) {
 
 void IcpTrackingNodelet::awaitAnswer() {
   constexpr auto kPeriod = std::chrono::milliseconds(200);
+  constexpr auto kPatience = std::chrono::seconds(60);  // kernels may have to be built first
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
   std::unique_lock<std::mutex> lock(mutex_);
   do {
     for (; !views_.empty(); views_.pop_front()) apply(*views_.front());
     if (!sent_ || frame_publisher_.getNumSubscribers() == 0) break;
     changed_.wait_for(lock, kPeriod, [this] { return stopping_ || !views_.empty(); });
-  } while (!stopping_);
+  } while (!stopping_ && std::chrono::steady_clock::now() < give_up);
   if (!sent_) return;
+  NODELET_ERROR_STREAM(getName() << ": no answer from tsdf_fusion to the last frame, which counts as lost");
   sent_.reset();
   tracker_->reject();
 }
