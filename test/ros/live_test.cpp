@@ -261,7 +261,7 @@ TEST_F(Live, AFrameFromBeforeAResetIsNotFused) {
   const auto status = map_status_.awaitStamp(header.stamp);
   ASSERT_NE(status, nullptr);
   EXPECT_FALSE(status->fused);
-  EXPECT_EQ(status->reason, "of another map");
+  EXPECT_EQ(status->reason, kBeforeReset);
   EXPECT_EQ(status->blocks, 0u);
 }
 

@@ -73,9 +73,11 @@ class Reconfigure : public testing::Test {
   }
 
   bool warnsOf(const std::string& part) {
-    return log_.await([&](const rosgraph_msgs::Log& log) {
-      return log.level == rosgraph_msgs::Log::WARN && log.msg.find(part) != std::string::npos;
-    }, 5.0) != nullptr;
+    return log_.await(
+               [&](const rosgraph_msgs::Log& log) {
+                 return log.level == rosgraph_msgs::Log::WARN && log.msg.find(part) != std::string::npos;
+               },
+               5.0) != nullptr;
   }
 
   ConfigDescription describe(const std::string& nodelet) {
@@ -182,7 +184,8 @@ TEST_F(Reconfigure, NodeletsOfAStageInCommonFollow) {
   ASSERT_TRUE(graph_.load("tsdf_fusion"));
   const Listener<Config> updates(graph_.handle(), "tsdf_fusion/parameter_updates");
   set("icp_tracking", real("preprocessing/max_range_m", 2.5));
-  EXPECT_TRUE(updates.await([](const Config& config) { return doubleOf(config, "preprocessing/max_range_m") == 2.5; }, 5.0));
+  EXPECT_TRUE(updates.await(
+      [](const Config& config) { return doubleOf(config, "preprocessing/max_range_m") == 2.5; }, 5.0));
   EXPECT_EQ(doubleOf(set("tsdf_fusion", Config()), "preprocessing/max_range_m"), 2.5);
   EXPECT_EQ(onServer("preprocessing/max_range_m"), 2.5);
 }
@@ -204,9 +207,10 @@ TEST_F(Reconfigure, DescriptionsSayWhatTheTableSays) {
   ASSERT_TRUE(graph_.load("tsdf_fusion"));
   const ConfigDescription description = describe("tsdf_fusion");
   PipelineParameters stages;
-  const std::vector<std::pair<std::string, ParameterTable>> tables = {{"Default", stages.tsdf_fusion.table()},
-                                                                      {"map", withPrefix("map", stages.map.table())},
-                                                                      {"preprocessing", withPrefix("preprocessing", stages.preprocessing.table())}};
+  const std::vector<std::pair<std::string, ParameterTable>> tables = {
+      {"Default", stages.tsdf_fusion.table()},
+      {"map", withPrefix("map", stages.map.table())},
+      {"preprocessing", withPrefix("preprocessing", stages.preprocessing.table())}};
   for (const auto& [name, table] : tables) {
     const auto* group = find(description.groups, name);
     ASSERT_NE(group, nullptr) << name;

@@ -1,5 +1,6 @@
-// docs/ros_api.md says what the nodelets publish, subscribe, serve and take as parameters: all of it and nothing else.
-// With DEPTH_FUSION_UPDATE_DOCS in the environment the tables of parameters in it are written anew.
+// docs/ros_api.md says what the nodelets publish, subscribe, serve and take as parameters: all of it and
+// nothing else. With DEPTH_FUSION_UPDATE_DOCS in the environment the tables of parameters in it are written
+// anew.
 #include <dynamic_reconfigure/ConfigDescription.h>
 
 #include <cstdlib>
@@ -43,9 +44,10 @@ const std::string& documentPath() {
 // What makes a nodelet speak on other topics than by default.
 std::vector<Parameters> variantsOf(const std::string& nodelet, const std::string& recording) {
   if (nodelet == "acquisition") return {{{"recording", recording}, {"publish_clock", "true"}}};
-  const std::vector<Parameters> transports = {{},
-                                              {{"depth_transport", "compressedDepth"}, {"color_transport", "compressed"}},
-                                              {{"depth_transport", "compressed"}}};
+  const std::vector<Parameters> transports = {
+      {},
+      {{"depth_transport", "compressedDepth"}, {"color_transport", "compressed"}},
+      {{"depth_transport", "compressed"}}};
   std::vector<Parameters> variants = transports;
   for (Parameters variant : transports) {
     if (nodelet == "icp_tracking") variant["texture_odometry"] = "false";
@@ -66,7 +68,8 @@ XmlRpc::XmlRpcValue askMaster(const std::string& method) {
 Interface registered(const std::string& prefix) {
   std::map<std::string, std::string> types;
   XmlRpc::XmlRpcValue topic_types = askMaster("getTopicTypes");
-  for (int i = 0; i < topic_types.size(); ++i) types[topic_types[i][0]] = static_cast<std::string>(topic_types[i][1]);
+  for (int i = 0; i < topic_types.size(); ++i)
+    types[topic_types[i][0]] = static_cast<std::string>(topic_types[i][1]);
   Interface found;
   XmlRpc::XmlRpcValue state = askMaster("getSystemState");
   const std::string kinds[] = {"published", "subscribed", "service"};
@@ -76,7 +79,8 @@ Interface registered(const std::string& prefix) {
       const bool inside = name.compare(0, prefix.size(), prefix) == 0;
       for (int node = 0; node < state[kind][i][1].size(); ++node) {
         if (static_cast<std::string>(state[kind][i][1][node]) != ros::this_node::getName()) continue;
-        found.insert(kinds[kind] + " " + (inside ? name.substr(prefix.size()) : name) + (kind < 2 ? " " + types[name] : ""));
+        found.insert(kinds[kind] + " " + (inside ? name.substr(prefix.size()) : name) +
+                     (kind < 2 ? " " + types[name] : ""));
       }
     }
   }
@@ -124,8 +128,9 @@ std::string tableOf(const ConfigDescription& description, const Group& group) {
   std::ostringstream table;
   table << "| parameter | default | range | changes live | meaning |\n|---|---|---|---|---|\n";
   for (const ParamDescription& row : group.parameters) {
-    table << "| `" << row.name << "` | " << valueOf(description.dflt, row) << " | " << rangeOf(description, row) << " | "
-          << (row.level == 0 ? "yes" : "no") << " | " << std::regex_replace(row.description, note, "") << " |\n";
+    table << "| `" << row.name << "` | " << valueOf(description.dflt, row) << " | "
+          << rangeOf(description, row) << " | " << (row.level == 0 ? "yes" : "no") << " | "
+          << std::regex_replace(row.description, note, "") << " |\n";
   }
   return table.str();
 }
@@ -175,7 +180,8 @@ std::vector<std::string> nodelets() {
   const std::string plugins = readFile(privateParameter("plugins"));
   const std::regex name("<class name=\"depth_fusion/(\\w+)\"");
   std::vector<std::string> names;
-  for (std::sregex_iterator i(plugins.begin(), plugins.end(), name), end; i != end; ++i) names.push_back((*i)[1]);
+  for (std::sregex_iterator i(plugins.begin(), plugins.end(), name), end; i != end; ++i)
+    names.push_back((*i)[1]);
   return names;
 }
 

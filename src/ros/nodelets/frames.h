@@ -48,6 +48,8 @@ struct MapView {
   uint32_t map_generation = 0;            // another one after every reset
   MapMode mode = MapMode::kMapping;
 };
+// The reason of frames that were taken before the map was emptied; a MapView without a frame has it when that happens.
+constexpr char kBeforeReset[] = "from before a reset";
 using MapViewMessage = ProcessMessage<MapView>;
 
 }  // namespace depth_fusion

@@ -14,6 +14,12 @@
 #include "ros/nodelets/worker.h"
 
 namespace depth_fusion {
+namespace {
+
+// Stamps farther apart are not of the same clock.
+constexpr double kSameClock_s = 10.0;
+
+}  // namespace
 
 using TexturedFramePtr = std::shared_ptr<const TexturedFrame>;
 
@@ -48,6 +54,8 @@ class IcpTrackingNodelet : public StageNodelet {
   // A clock set back, frames skipped before this one.
   void catchUp(const SensorFrame& frame);
   void apply(const MapViewMessage& view);
+  // Why a frame is not to be tracked at all, or nothing.
+  std::string refusal(const ros::Time& stamp);
   TrackingResult track(const TexturedFramePtr& frame, StageTimers& timers);
   void send(const TexturedFramePtr& frame, const TrackingResult& result);
   void publish(const TexturedFrame& frame, const TrackingResult& result, StageTimers& timers);
@@ -83,6 +91,8 @@ class IcpTrackingNodelet : public StageNodelet {
   bool stopping_ = false;
   std::deque<MapViewMessage::ConstPtr> views_;
   std::vector<Skipped> skipped_;
+  ros::Time newest_stamp_;
+  ros::Time reset_stamp_;  // of the newest frame from before the last reset
   TrackerStatus status_;
 
   ros::Publisher frame_publisher_, status_publisher_;
@@ -163,7 +173,14 @@ void IcpTrackingNodelet::applyParameters() {
   if (sensor_subscriber_ != nullptr) sensor_subscriber_->setParameters(rgbd_);
 }
 
-void IcpTrackingNodelet::receive(const TexturedFramePtr& frame) { worker_->push(frame); }
+void IcpTrackingNodelet::receive(const TexturedFramePtr& frame) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    newest_stamp_ = frame->sensor->header.stamp;
+    if (newest_stamp_ + ros::Duration(kSameClock_s) < reset_stamp_) reset_stamp_ = ros::Time();  // the clock went back
+  }
+  worker_->push(frame);
+}
 
 void IcpTrackingNodelet::receiveView(const MapViewMessage::ConstPtr& view) {
   if (view->payload == nullptr) {
@@ -173,6 +190,11 @@ void IcpTrackingNodelet::receiveView(const MapViewMessage::ConstPtr& view) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     views_.push_back(view);
+    if (view->payload->reason == kBeforeReset && !view->payload->accepted && view->payload->view == nullptr) {
+      // Frames that are still on their way count by their stamps, where those are of the clock that fusion goes by.
+      const bool same_clock = std::abs((view->header.stamp - newest_stamp_).toSec()) < kSameClock_s;
+      reset_stamp_ = same_clock ? std::max(view->header.stamp, newest_stamp_) : newest_stamp_;
+    }
   }
   changed_.notify_all();
 }
@@ -186,11 +208,11 @@ void IcpTrackingNodelet::process(const TexturedFramePtr& waiting) {
     prepare(frame->sensor->rgbd.intrinsics);
     catchUp(*frame->sensor);
     TrackingResult result;
-    if (mode_ == MapMode::kPaused) {
-      tracker_->reject();
-      result.reason = "paused";
-    } else {
+    result.reason = refusal(frame->sensor->header.stamp);
+    if (result.reason.empty()) {
       result = track(frame, timers);
+    } else {
+      tracker_->reject();
     }
     publish(*frame, result, timers);
     if (result.status != TrackingStatus::kLost) send(frame, result);
@@ -199,6 +221,12 @@ void IcpTrackingNodelet::process(const TexturedFramePtr& waiting) {
     counter_.drop("error");
   }
   recordTimings(timers);
+}
+
+std::string IcpTrackingNodelet::refusal(const ros::Time& stamp) {
+  if (mode_ == MapMode::kPaused) return "paused";
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return stamp <= reset_stamp_ ? kBeforeReset : "";
 }
 
 void IcpTrackingNodelet::prepare(const CameraIntrinsics& camera) {
@@ -235,13 +263,16 @@ void IcpTrackingNodelet::catchUp(const SensorFrame& frame) {
 
 void IcpTrackingNodelet::awaitAnswer() {
   constexpr auto kPeriod = std::chrono::milliseconds(200);
+  constexpr auto kPatience = std::chrono::seconds(60);  // kernels may have to be built first
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
   std::unique_lock<std::mutex> lock(mutex_);
   do {
     for (; !views_.empty(); views_.pop_front()) apply(*views_.front());
     if (!sent_ || frame_publisher_.getNumSubscribers() == 0) break;
     changed_.wait_for(lock, kPeriod, [this] { return stopping_ || !views_.empty(); });
-  } while (!stopping_);
+  } while (!stopping_ && std::chrono::steady_clock::now() < give_up);
   if (!sent_) return;
+  NODELET_ERROR_STREAM(getName() << ": no answer from tsdf_fusion to the last frame, which counts as lost");
   sent_.reset();
   tracker_->reject();
 }
@@ -301,7 +332,7 @@ void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResul
   const double latency_s = (ros::Time::now() - header.stamp).toSec();
   if (lost) {
     pose_publisher_->publishLost(header);
-    counter_.drop(mode_ == MapMode::kPaused ? "paused" : "lost");
+    counter_.drop(mode_ == MapMode::kPaused ? "paused" : result.reason == kBeforeReset ? kBeforeReset : "lost");
   } else {
     counter_.process();
     pose_publisher_->publish(header, result.T_W_D, result.covariance);

@@ -26,15 +26,18 @@ Pose levelCamera() {
 ParameterTable PoseParameters::table() {
   return atStartOnly(
       {{"publish_tf", &publish_tf, 0, 1, "false: poses as messages only"},
-          {"map_frame", &map_frame, 0, 0, "frame of the map and of the poses"},
-          {"odom_frame", &odom_frame, 0, 0,
-           "child of map_frame on tf, where the robot has odometry; empty: base_frame, or the root of the camera's tree"},
-          {"base_frame", &base_frame, 0, 0, "child of map_frame on tf, where the robot has no odometry"},
-          {"level_start", &level_start, 0, 1,
-           "a camera without a tf tree starts looking along x with z up; false: the map is the first optical frame"}});
+       {"map_frame", &map_frame, 0, 0, "frame of the map and of the poses"},
+       {"odom_frame", &odom_frame, 0, 0,
+        "child of map_frame on tf, where the robot has odometry; empty: base_frame, or the root of the "
+        "camera's tree"},
+       {"base_frame", &base_frame, 0, 0, "child of map_frame on tf, where the robot has no odometry"},
+       {"level_start", &level_start, 0, 1,
+        "a camera without a tf tree starts looking along x with z up; false: the map is the first optical "
+        "frame"}});
 }
 
-PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_handle, const PoseParameters& parameters)
+PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_handle,
+                             const PoseParameters& parameters)
     : parameters_(parameters), listener_(buffer_, handle) {
   pose_publisher_ = private_handle.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 10);
   path_publisher_ = private_handle.advertise<nav_msgs::Path>("path", 1);

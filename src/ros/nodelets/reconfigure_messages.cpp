@@ -46,8 +46,8 @@ std::string enumOf(const Parameter& row) {
   if (row.choices.empty()) return "";
   std::string constants;
   for (const std::string& choice : row.choices) {
-    constants += (constants.empty() ? "" : ", ") + ("{'name': '" + choice) + "', 'type': 'str', 'value': '" + choice +
-                 "', 'description': '" + choice + "'}";
+    constants += (constants.empty() ? "" : ", ") + ("{'name': '" + choice) + "', 'type': 'str', 'value': '" +
+                 choice + "', 'description': '" + choice + "'}";
   }
   return "{'enum': [" + constants + "], 'enum_description': '" + row.name + "'}";
 }
@@ -98,11 +98,13 @@ Config makeConfig(const std::vector<ParameterGroup>& groups) {
   return config;
 }
 
-dynamic_reconfigure::ConfigDescription makeDescription(const std::vector<ParameterGroup>& groups, const Config& defaults) {
+dynamic_reconfigure::ConfigDescription makeDescription(const std::vector<ParameterGroup>& groups,
+                                                       const Config& defaults) {
   dynamic_reconfigure::ConfigDescription description;
   for (size_t i = 0; i < groups.size(); ++i) {
     description.groups.push_back(makeGroup<dynamic_reconfigure::Group>(groups[i], i));
-    for (const Parameter& row : namedTable(groups[i])) description.groups.back().parameters.push_back(describe(row));
+    for (const Parameter& row : namedTable(groups[i]))
+      description.groups.back().parameters.push_back(describe(row));
   }
   description.dflt = defaults;
   description.min.groups = description.max.groups = defaults.groups;

@@ -40,13 +40,14 @@ bool belongsTo(const Setting& setting, const ParameterGroup& group) {
 
 }  // namespace
 
-ReconfigureServer::ReconfigureServer(std::vector<ParameterGroup> groups, const dynamic_reconfigure::Config& defaults,
-                                     Nodelet nodelet)
+ReconfigureServer::ReconfigureServer(std::vector<ParameterGroup> groups,
+                                     const dynamic_reconfigure::Config& defaults, Nodelet nodelet)
     : groups_(std::move(groups)), table_(joinedTable(groups_)), nodelet_(std::move(nodelet)) {
   Servers& known = servers();
   const std::lock_guard<std::mutex> lock(known.mutex);
   ros::NodeHandle& handle = groups_.front().handle;
-  description_publisher_ = handle.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, true);
+  description_publisher_ =
+      handle.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, true);
   description_publisher_.publish(makeDescription(groups_, defaults));
   update_publisher_ = handle.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true);
   publish();
@@ -128,6 +129,8 @@ void ReconfigureServer::publish() {
   update_publisher_.publish(makeConfig(groups_));
 }
 
-void ReconfigureServer::warn(const std::string& message) const { ROS_WARN("%s: %s", nodelet_.name.c_str(), message.c_str()); }
+void ReconfigureServer::warn(const std::string& message) const {
+  ROS_WARN("%s: %s", nodelet_.name.c_str(), message.c_str());
+}
 
 }  // namespace depth_fusion

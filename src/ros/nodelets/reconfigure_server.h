@@ -13,8 +13,9 @@
 
 namespace depth_fusion {
 
-// What is refused (an unknown name, a value out of range, a parameter that is at_start_only, values that do not fit together) is
-// warned of, and stands in the answer as it was. Nodelets of one process that have a stage's group in common have one value of it.
+// What is refused (an unknown name, a value out of range, a parameter that is at_start_only, values that do
+// not fit together) is warned of, and stands in the answer as it was. Nodelets of one process that have a
+// stage's group in common have one value of it.
 class ReconfigureServer {
  public:
   using Action = std::function<void()>;
@@ -27,12 +28,14 @@ class ReconfigureServer {
   };
 
   // Topics and service stand in the namespace of the first group, which holds the nodelet's own rows.
-  ReconfigureServer(std::vector<ParameterGroup> groups, const dynamic_reconfigure::Config& defaults, Nodelet nodelet);
+  ReconfigureServer(std::vector<ParameterGroup> groups, const dynamic_reconfigure::Config& defaults,
+                    Nodelet nodelet);
   // Waits for a change in progress.
   ~ReconfigureServer();
 
  private:
-  bool serve(dynamic_reconfigure::Reconfigure::Request& request, dynamic_reconfigure::Reconfigure::Response& response);
+  bool serve(dynamic_reconfigure::Reconfigure::Request& request,
+             dynamic_reconfigure::Reconfigure::Response& response);
   // Gives back what has changed.
   std::vector<Setting> change(const std::vector<Setting>& wanted);
   // Between two frames. Gives back the rows that changed, with the texts they had.

@@ -240,7 +240,7 @@ TsdfFusionNodelet::Outcome TsdfFusionNodelet::map(const TrackedFrame& frame, Sta
     prepare(camera_);
   } else if (frame.map_generation != map_->generation &&
              !(frame.map_generation == 0 && map_->map.usage().blocks == 0)) {
-    return {false, false, "of another map"};
+    return {false, false, kBeforeReset};
   }
   if (mode_ == MapMode::kPaused) return {false, false, "paused"};
   if (mode_ == MapMode::kLocalisation) return {map_->map.usage().blocks > 0, false, "localisation only"};
@@ -315,10 +315,10 @@ void TsdfFusionNodelet::resetMap() {
 }
 
 bool TsdfFusionNodelet::serveReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  worker_->clear();
+  for (size_t cleared = worker_->clear(); cleared > 0; --cleared) counter_.drop(kBeforeReset);
   const std::lock_guard<std::mutex> lock(map_->mutex);
   resetMap();
-  answer(std_msgs::Header(), {false, false, "reset"});
+  answer(makeHeader(ros::Time::now(), map_frame_), {false, false, kBeforeReset});
   response.success = true;
   response.message = "the map is empty; it begins anew with the next frame";
   return true;

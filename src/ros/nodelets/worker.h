@@ -13,7 +13,7 @@ namespace depth_fusion {
 template <class Item>
 class Worker {
  public:
-  // `work` is called in the thread, `drop` with what did not fit or was cleared, in whatever thread.
+  // `work` is called in the thread, `drop` with what did not fit, in whatever thread.
   Worker(size_t capacity, std::function<void(const Item&)> work, std::function<void(const Item&)> drop)
       : capacity_(capacity), work_(std::move(work)), drop_(std::move(drop)), thread_([this] { run(); }) {}
 
@@ -51,13 +51,12 @@ class Worker {
     return next;
   }
 
-  void clear() {
-    std::deque<Item> dropped;
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      dropped.swap(items_);
-    }
-    for (const Item& old : dropped) drop_(old);
+  // Forgets those that wait, without a call of `drop`. Returns how many.
+  size_t clear() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const size_t cleared = items_.size();
+    items_.clear();
+    return cleared;
   }
 
   // Runs the action in the thread, before the next item; returns when it is done. Throws what it throws.
