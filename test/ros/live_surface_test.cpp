@@ -2,12 +2,8 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
-#include <visualization_msgs/MarkerArray.h>
 
-#include <algorithm>
-#include <array>
-#include <map>
-
+#include "support/marker_screen.h"
 #include "support/nodelet_graph.h"
 #include "support/offered_map.h"
 
@@ -16,93 +12,6 @@ namespace {
 
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
-
-using Triangle = std::array<std::array<float, 3>, 3>;
-
-Triangle fromItsLeastCorner(Triangle triangle) {
-  std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-  return triangle;
-}
-
-std::vector<Triangle> trianglesOf(const TriangleMesh& mesh) {
-  std::vector<Triangle> triangles;
-  for (const MeshTriangle& t : mesh.triangles) {
-    Triangle corners;
-    for (int i = 0; i < 3; ++i) std::copy_n(mesh.vertices[t[i]].position_W.data(), 3, corners[i].begin());
-    triangles.push_back(fromItsLeastCorner(corners));
-  }
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
-}
-
-// What rviz has on its screen.
-class Screen {
- public:
-  Screen(ros::NodeHandle& handle, const std::string& topic)
-      : subscriber_(handle.subscribe<MarkerArray>(topic, 1000, [this](const MarkerArray::ConstPtr& message) {
-          const std::lock_guard<std::mutex> lock(mutex_);
-          for (const Marker& marker : message->markers) apply(marker);
-        })) {}
-
-  std::vector<Triangle> triangles() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    std::vector<Triangle> triangles;
-    for (const auto& entry : markers_) {
-      const auto& points = entry.second.points;
-      EXPECT_EQ(points.size() % 3, 0u);
-      EXPECT_EQ(entry.second.colors.size(), points.size());
-      for (size_t i = 0; i + 2 < points.size(); i += 3) {
-        Triangle t;
-        for (int corner = 0; corner < 3; ++corner) {
-          const geometry_msgs::Point& p = points[i + corner];
-          t[corner] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-        }
-        triangles.push_back(fromItsLeastCorner(t));
-      }
-    }
-    std::sort(triangles.begin(), triangles.end());
-    return triangles;
-  }
-  bool shows(const TriangleMesh& mesh) const {
-    const std::vector<Triangle> expected = trianglesOf(mesh);
-    return eventually([&] { return triangles() == expected; }, 30.0);
-  }
-  std::map<int, Marker> markers() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return markers_;
-  }
-  // Numbers of markers that came since the last call.
-  struct Traffic {
-    size_t added = 0, deleted = 0, all_deleted = 0;
-  };
-  Traffic takeTraffic() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return std::exchange(traffic_, Traffic());
-  }
-
- private:
-  void apply(const Marker& marker) {
-    EXPECT_EQ(marker.ns, "surface");
-    EXPECT_EQ(marker.header.frame_id, "map");
-    if (marker.action == Marker::DELETEALL) {
-      ++traffic_.all_deleted;
-      markers_.clear();
-    } else if (marker.action == Marker::DELETE) {
-      ++traffic_.deleted;
-      EXPECT_EQ(markers_.erase(marker.id), 1u);
-    } else {
-      ++traffic_.added;
-      EXPECT_EQ(marker.type, +Marker::TRIANGLE_LIST);
-      EXPECT_EQ(marker.pose.orientation.w, 1.0);
-      markers_[marker.id] = marker;
-    }
-  }
-
-  mutable std::mutex mutex_;
-  std::map<int, Marker> markers_;
-  Traffic traffic_;
-  ros::Subscriber subscriber_;
-};
 
 SignedDistance twoBalls() {
   return [](const Eigen::Vector3d& p) {
