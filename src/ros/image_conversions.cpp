@@ -47,7 +47,7 @@ void swapBytes(cv::Mat& image) {
   }
 }
 
-// The message's own memory, where its byte order is the host's.
+// In the message's own memory, where byte order and step are such as an image has here; else a copy.
 cv::Mat pixelsOf(const sensor_msgs::Image& message, int type, const std::string& topic) {
   check(message.width > 0 && message.height > 0, topic + ": the image is empty");
   const size_t row_size = size_t{message.width} * CV_ELEM_SIZE(type);
@@ -56,12 +56,16 @@ cv::Mat pixelsOf(const sensor_msgs::Image& message, int type, const std::string&
         topic + ": the image holds " + std::to_string(message.data.size()) + " bytes with a step of " +
             std::to_string(message.step) + ", too few for " + std::to_string(message.width) + "x" +
             std::to_string(message.height) + " " + message.encoding);
-  const cv::Mat image(static_cast<int>(message.height), static_cast<int>(message.width), type,
-                      const_cast<unsigned char*>(message.data.data()), message.step);
-  if (image.elemSize1() == 1 || (message.is_bigendian != 0) == hostIsBigEndian()) return image;
-  cv::Mat swapped = image.clone();
-  swapBytes(swapped);
-  return swapped;
+  const bool swaps = CV_ELEM_SIZE1(type) > 1 && (message.is_bigendian != 0) != hostIsBigEndian();
+  const cv::Size size(static_cast<int>(message.width), static_cast<int>(message.height));
+  if (!swaps && message.step % CV_ELEM_SIZE1(type) == 0)
+    return cv::Mat(size, type, const_cast<unsigned char*>(message.data.data()), message.step);
+  cv::Mat image(size, type);
+  for (int row = 0; row < image.rows; ++row) {
+    std::memcpy(image.ptr(row), message.data.data() + size_t{message.step} * row, row_size);
+  }
+  if (swaps) swapBytes(image);
+  return image;
 }
 
 // Too near, too far and unknown have numbers of their own in ROS (REP 118).

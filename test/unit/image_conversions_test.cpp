@@ -33,9 +33,12 @@ cv::Mat metresOf(const cv::Mat& millimetres) {
 TEST(ImageConversions, reads_depth_of_16_bits) {
   for (const char* encoding : {"16UC1", "mono16"}) {
     for (const int padding : {0, 3, 8}) {
-      const DepthImage depth = depthFromImage(imageMessage(randomDepth(1), encoding, padding), kTopic);
+      const sensor_msgs::Image message = imageMessage(randomDepth(1), encoding, padding);
+      const DepthImage depth = depthFromImage(message, kTopic);
       EXPECT_TRUE(sameImage(depth.image, randomDepth(1))) << encoding << ", padding " << padding;
       EXPECT_DOUBLE_EQ(depth.unit_m, 0.001);
+      // No copy, where the rows begin at whole pixels.
+      EXPECT_EQ(depth.image.data == message.data.data(), padding % 2 == 0);
     }
   }
 }
