@@ -62,7 +62,7 @@ class AcquisitionNodelet : public StageNodelet {
   bool stopping_ = false;
   std::atomic<size_t> fused_{0}, lost_{0};
   std::vector<double> latencies_ms_;  // of the poses
-  std::optional<ros::Time> done_;  // the newest frame known to be in the map, or lost
+  std::optional<ros::Time> done_;  // the frame of which was heard last that it is in the map, or lost
   std::string state_ = "waiting for subscribers";
   double first_stamp_s_ = -1.0;
   ros::WallTime first_sent_;
@@ -207,7 +207,7 @@ ros::Time AcquisitionNodelet::publish(const RgbdFrame& frame) {
 void AcquisitionNodelet::awaitMap(const ros::Time& stamp) {
   std::unique_lock<std::mutex> lock(mutex_);
   const bool done = changed_.wait_for(lock, std::chrono::duration<double>(lossless_timeout_s_),
-                                      [&] { return stopping_ || (done_ && *done_ >= stamp); });
+                                      [&] { return stopping_ || done_ == stamp; });
   if (done) return;
   counter_.drop("unanswered");
   NODELET_WARN_STREAM(getName() << ": nobody says what became of the frame of " << stamp << "; going on");
@@ -222,7 +222,7 @@ bool AcquisitionNodelet::sleep(double seconds) {
 void AcquisitionNodelet::noteDone(const ros::Time& stamp) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!done_ || stamp > *done_) done_ = stamp;
+    done_ = stamp;
   }
   changed_.notify_all();
 }

@@ -122,7 +122,7 @@ void IcpTrackingNodelet::start() {
   if (map_name_.empty()) map_name_ = handle.resolveName("tsdf_fusion");
   pose_publisher_ = std::make_unique<PosePublisher>(handle, private_handle, pose_);
   frame_publisher_ = private_handle.advertise<TrackedFrameMessage>("frame", 10);
-  status_publisher_ = private_handle.advertise<TrackerStatus>("status", 100);
+  status_publisher_ = private_handle.advertise<TrackerStatus>("status", 100, true);
   worker_ = std::make_unique<Worker<TexturedFramePtr>>(
       queue_size_, [this](const TexturedFramePtr& frame) { process(frame); },
       [this](const TexturedFramePtr& frame) {

@@ -102,7 +102,7 @@ void TsdfFusionNodelet::start() {
   NODELET_INFO_STREAM("OpenCL device: " << map_->compute->selfTestReport());
 
   view_publisher_ = handle.advertise<MapViewMessage>("model_view", 100);
-  status_publisher_ = handle.advertise<MapStatus>("status", 100);
+  status_publisher_ = handle.advertise<MapStatus>("status", 100, true);
   picture_publisher_ = handle.advertise<sensor_msgs::Image>("model_view/image", 1);
   worker_ = std::make_unique<Worker<TrackedFramePtr>>(
       queue_size_, [this](const TrackedFramePtr& frame) { process(frame); },
