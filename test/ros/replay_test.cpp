@@ -60,7 +60,7 @@ TEST(Replay, ABagBecomesPosesAndAMapAndNoFrameIsUnaccountedFor) {
   std::thread player([&] {
     EXPECT_EQ(std::system(("rosbag play --quiet --clock --delay=1 --rate=0.2 " + path).c_str()), 0);
   });
-  EXPECT_NE(map.awaitStamp(toRosTime(frames[10].stamp_s)), nullptr);
+  EXPECT_NE(map.await([](const MapStatus& status) { return status.fused; }), nullptr);
   expectModeIsServed(handle);
   player.join();
 

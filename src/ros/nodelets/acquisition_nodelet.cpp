@@ -106,7 +106,7 @@ void AcquisitionNodelet::start() {
   if (publish_clock_) clock_publisher_ = handle.advertise<rosgraph_msgs::Clock>("/clock", 10);
   map_subscriber_ = handle.subscribe<MapStatus>(
       "tsdf_fusion/status", 100, [this](const MapStatus::ConstPtr& status) {
-        if (status->fused) ++fused_;
+        if (status->fused && counter_.account().processed > 0) ++fused_;
         noteDone(status->header.stamp);
       });
   tracker_subscriber_ = handle.subscribe<TrackerStatus>(
@@ -209,7 +209,6 @@ void AcquisitionNodelet::awaitMap(const ros::Time& stamp) {
   const bool done = changed_.wait_for(lock, std::chrono::duration<double>(lossless_timeout_s_),
                                       [&] { return stopping_ || done_ == stamp; });
   if (done) return;
-  counter_.drop("unanswered");
   NODELET_WARN_STREAM(getName() << ": nobody says what became of the frame of " << stamp << "; going on");
 }
 
@@ -228,6 +227,7 @@ void AcquisitionNodelet::noteDone(const ros::Time& stamp) {
 }
 
 void AcquisitionNodelet::noteTracking(const TrackerStatus& status) {
+  if (counter_.account().processed == 0) return;  // latched, of frames before
   if (status.state >= TrackerStatus::LOST) {
     ++lost_;
     return;
@@ -241,7 +241,7 @@ std::string AcquisitionNodelet::summary() {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::ostringstream text;
   const size_t sent = counter_.account().processed;
-  text << sent << " frames sent, " << fused_ << " fused, " << lost_ << " lost, " << sent - fused_ - lost_ << " dropped";
+  text << sent << " frames sent, " << fused_ << " fused, " << lost_ << " lost, " << sent - std::min(sent, fused_ + lost_) << " dropped";
   if (restamp_) {
     text << "; pose " << std::lround(percentile(latencies_ms_, 0.5)) << " ms after the image (median), "
          << std::lround(percentile(latencies_ms_, 0.95)) << " ms (95 %)";

@@ -18,6 +18,7 @@ namespace {
 
 // Stamps farther apart are not of the same clock.
 constexpr double kSameClock_s = 10.0;
+constexpr size_t kMaxViews = 8;
 
 }  // namespace
 
@@ -92,6 +93,7 @@ class IcpTrackingNodelet : public StageNodelet {
   std::deque<MapViewMessage::ConstPtr> views_;
   std::vector<Skipped> skipped_;
   ros::Time newest_stamp_;
+  uint32_t newest_jumps_ = 0;
   ros::Time reset_stamp_;  // of the newest frame from before the last reset
   TrackerStatus status_;
 
@@ -177,7 +179,7 @@ void IcpTrackingNodelet::receive(const TexturedFramePtr& frame) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     newest_stamp_ = frame->sensor->header.stamp;
-    if (newest_stamp_ + ros::Duration(kSameClock_s) < reset_stamp_) reset_stamp_ = ros::Time();  // the clock went back
+    if (frame->sensor->clock_jumps != std::exchange(newest_jumps_, frame->sensor->clock_jumps)) reset_stamp_ = ros::Time();
   }
   worker_->push(frame);
 }
@@ -190,6 +192,7 @@ void IcpTrackingNodelet::receiveView(const MapViewMessage::ConstPtr& view) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     views_.push_back(view);
+    if (views_.size() > kMaxViews) views_.pop_front();  // nobody sends frames, and fusion has them from elsewhere
     if (view->payload->reason == kBeforeReset && !view->payload->accepted && view->payload->view == nullptr) {
       // Frames that are still on their way count by their stamps, where those are of the clock that fusion goes by.
       const bool same_clock = std::abs((view->header.stamp - newest_stamp_).toSec()) < kSameClock_s;
@@ -201,25 +204,28 @@ void IcpTrackingNodelet::receiveView(const MapViewMessage::ConstPtr& view) {
 
 void IcpTrackingNodelet::process(const TexturedFramePtr& waiting) {
   StageTimers timers;
+  TexturedFramePtr frame = waiting;
+  TrackingResult result;
   try {
-    if (tracker_ == nullptr) prepare(waiting->sensor->rgbd.intrinsics);
+    if (tracker_ == nullptr) prepare(frame->sensor->rgbd.intrinsics);
     awaitAnswer();
-    const TexturedFramePtr frame = worker_->nextIfFull(waiting);
+    frame = worker_->nextIfFull(frame);
     prepare(frame->sensor->rgbd.intrinsics);
     catchUp(*frame->sensor);
-    TrackingResult result;
     result.reason = refusal(frame->sensor->header.stamp);
     if (result.reason.empty()) {
       result = track(frame, timers);
     } else {
       tracker_->reject();
     }
-    publish(*frame, result, timers);
-    if (result.status != TrackingStatus::kLost) send(frame, result);
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << error.what());
-    counter_.drop("error");
+    result = TrackingResult();
+    result.reason = error.what();
+    if (tracker_ != nullptr) tracker_->reject();
   }
+  publish(*frame, result, timers);
+  if (result.status != TrackingStatus::kLost) send(frame, result);
   recordTimings(timers);
 }
 
@@ -232,7 +238,11 @@ std::string IcpTrackingNodelet::refusal(const ros::Time& stamp) {
 void IcpTrackingNodelet::prepare(const CameraIntrinsics& camera) {
   if (tracker_ != nullptr && sameCamera(camera, camera_)) return;
   if (tracker_ != nullptr) NODELET_WARN("the camera's intrinsics have changed; the sensor is searched for in the map");
-  compute_ = sharedCompute(device_);
+  const std::shared_ptr<ComputeContext> compute = sharedCompute(device_);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    compute_ = compute;
+  }
   NODELET_INFO_STREAM("OpenCL device: " << compute_->selfTestReport());
   renderer_.reset();
   tracker_ = std::make_unique<FrameTracker>(*compute_, parameters_, camera,
@@ -244,7 +254,7 @@ void IcpTrackingNodelet::prepare(const CameraIntrinsics& camera) {
 void IcpTrackingNodelet::catchUp(const SensorFrame& frame) {
   if (frame.clock_jumps != std::exchange(clock_jumps_, frame.clock_jumps)) {
     tracker_->reject();
-    if (on_clock_jump_ == "reset") {
+    if (on_clock_jump_ == "reset" && mode_ == MapMode::kMapping) {
       forgetMap();
       begins_map_ = true;
     }
@@ -272,7 +282,7 @@ void IcpTrackingNodelet::awaitAnswer() {
     changed_.wait_for(lock, kPeriod, [this] { return stopping_ || !views_.empty(); });
   } while (!stopping_ && std::chrono::steady_clock::now() < give_up);
   if (!sent_) return;
-  NODELET_ERROR_STREAM(getName() << ": no answer from tsdf_fusion to the last frame, which counts as lost");
+  if (!stopping_) NODELET_ERROR_STREAM(getName() << ": no answer from tsdf_fusion to the last frame, which counts as lost");
   sent_.reset();
   tracker_->reject();
 }
@@ -306,6 +316,8 @@ void IcpTrackingNodelet::forgetMap() {
   pose_publisher_->reset();
   view_.reset();
   sent_.reset();
+  renderer_.reset();
+  map_.reset();
 }
 
 TrackingResult IcpTrackingNodelet::track(const TexturedFramePtr& frame, StageTimers& timers) {
@@ -335,7 +347,11 @@ void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResul
     counter_.drop(mode_ == MapMode::kPaused ? "paused" : result.reason == kBeforeReset ? kBeforeReset : "lost");
   } else {
     counter_.process();
-    pose_publisher_->publish(header, result.T_W_D, result.covariance);
+    try {
+      pose_publisher_->publish(header, result.T_W_D, result.covariance);
+    } catch (const Error& error) {
+      NODELET_WARN_STREAM_THROTTLE(5.0, getName() << ": no transform sent: " << error.what());
+    }
     timers.record("icp_tracking/latency", 1e3 * latency_s);
   }
   auto status = boost::make_shared<TrackerStatus>();
@@ -349,7 +365,7 @@ void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResul
   status->smallest_eigenvalue = result.smallest_eigenvalue;
   status->prior = view_ == nullptr ? "start" : frame.motion.found ? "texture" : "last pose";
   status->latency_s = latency_s;
-  status->keyframes = static_cast<uint32_t>(tracker_->keyframeCount());
+  status->keyframes = tracker_ == nullptr ? 0 : static_cast<uint32_t>(tracker_->keyframeCount());
   status->frames = counter_.account();
   status_publisher_.publish(status);
   const std::lock_guard<std::mutex> lock(mutex_);

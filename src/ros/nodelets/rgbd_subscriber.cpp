@@ -1,5 +1,6 @@
 #include "ros/nodelets/rgbd_subscriber.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "depth_fusion/common/error.h"
@@ -34,6 +35,13 @@ RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& par
     const std::lock_guard<std::mutex> timer_lock(mutex_);
     release();
   });
+}
+
+RgbdSubscriber::~RgbdSubscriber() {
+  timer_.stop();
+  for (ros::Subscriber* subscriber :
+       {&depth_subscriber_, &color_subscriber_, &depth_info_subscriber_, &color_info_subscriber_})
+    subscriber->shutdown();
 }
 
 void RgbdSubscriber::subscribe(ros::NodeHandle& handle) {
@@ -102,7 +110,7 @@ void RgbdSubscriber::onDepth(const std_msgs::Header& header, const std::function
   if (!takeStamp(*frame)) return;
   try {
     decode(*frame);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     return drop("unusable depth image", error.what());
   }
   pending_.push_back({frame, ros::WallTime::now()});
@@ -124,7 +132,10 @@ bool RgbdSubscriber::takeStamp(SensorFrame& frame) {
     ++clock_jumps_;
     for (size_t i = 0; i < pending_.size(); ++i) counter_.drop("clock jump");
     pending_.clear();
-    colors_.clear();
+    const ros::Time future = stamp + ros::Duration(kClockJump_s);
+    colors_.erase(std::remove_if(colors_.begin(), colors_.end(),
+                                 [&](const ColorImage& color) { return color.header.stamp > future; }),
+                  colors_.end());
   }
   last_stamp_ = stamp;
   frame.rgbd.stamp_s = stamp.toSec();
@@ -160,7 +171,7 @@ void RgbdSubscriber::release() {
     pending_.pop_front();
     try {
       takeCamera(*frame);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
       drop("unusable camera_info", error.what());
       continue;
     }
@@ -205,7 +216,7 @@ void RgbdSubscriber::addColor(SensorFrame& frame) {
     }
     const std::string problem = colorProblem(frame.rgbd);
     check(problem.empty(), color_topic_ + ": " + problem);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     frame.rgbd.color.release();
     frame.rgbd.color_problem = error.what();
     ROS_WARN_THROTTLE(5.0, "%s; only depth is used", error.what());

@@ -41,6 +41,9 @@ class RgbdSubscriber {
   // For the images to come; the transports stay.
   void setParameters(const RgbdParameters& parameters);
 
+  // Waits for what its callbacks are at.
+  ~RgbdSubscriber();
+
   // What hinders frames now, for diagnostics; empty if nothing does.
   std::string problem() const;
 

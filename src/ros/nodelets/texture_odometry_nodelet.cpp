@@ -22,6 +22,7 @@ class TextureOdometryNodelet : public StageNodelet {
   void applyParameters() override;
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void process(const SensorFramePtr& sensor);
+  void findMotion(const SensorFramePtr& sensor);
   void publishOdometry(const TexturedFrame& frame);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
@@ -65,6 +66,15 @@ void TextureOdometryNodelet::applyParameters() {
 }
 
 void TextureOdometryNodelet::process(const SensorFramePtr& sensor) {
+  try {
+    findMotion(sensor);
+  } catch (const std::exception& error) {
+    counter_.drop("error");
+    NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << error.what());
+  }
+}
+
+void TextureOdometryNodelet::findMotion(const SensorFramePtr& sensor) {
   auto frame = std::make_shared<TexturedFrame>();
   frame->sensor = sensor;
   StageTimers timers;

@@ -89,6 +89,7 @@ TsdfFusionNodelet::~TsdfFusionNodelet() {
   mode_server_.shutdown();
   frame_subscriber_.shutdown();
   sensor_subscriber_.reset();
+  tf_listener_.reset();
   tf_filter_.reset();
   worker_.reset();
 }
@@ -228,14 +229,16 @@ void TsdfFusionNodelet::process(const TrackedFramePtr& frame) {
 void TsdfFusionNodelet::prepare(const CameraIntrinsics& camera) {
   if (mapper_ != nullptr && sameCamera(camera, camera_)) return;
   camera_ = camera;
+  view_.reset();
   mapper_ = std::make_unique<Mapper>(*map_->compute, map_->map, parameters_, camera);
   preprocessor_.reset();
 }
 
 TsdfFusionNodelet::Outcome TsdfFusionNodelet::map(const TrackedFrame& frame, StageTimers& timers) {
-  const bool clock_jumped =
-      tracking_ == "external" && frame.sensor->clock_jumps != std::exchange(clock_jumps_, frame.sensor->clock_jumps);
-  if (frame.begins_map || (clock_jumped && on_clock_jump_ == "reset")) {
+  if (frame.sensor->clock_jumps < clock_jumps_) return {false, false, "from before a clock jump"};
+  const bool clock_jumped = frame.sensor->clock_jumps > std::exchange(clock_jumps_, frame.sensor->clock_jumps);
+  const bool begins = tracking_ == "external" ? clock_jumped && on_clock_jump_ == "reset" : frame.begins_map;
+  if (begins && mode_ == MapMode::kMapping) {
     resetMap();
     prepare(camera_);
   } else if (frame.map_generation != map_->generation &&

@@ -32,10 +32,13 @@ class Worker {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       for (; items_.size() >= capacity_; items_.pop_front()) dropped.push_back(items_.front());
+    }
+    for (const Item& old : dropped) drop_(old);  // before the new one can be at work
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
       items_.push_back(item);
     }
     changed_.notify_all();
-    for (const Item& old : dropped) drop_(old);
   }
 
   // For work that had to wait for something else: if meanwhile as many wait as can, the item at work is dropped for the next.
