@@ -107,6 +107,15 @@ install_dependencies() {
   fi
 }
 
+# ROS's tools speak to themselves over the network: they want a name of this machine that resolves, which a bare container need
+# not have.
+prepare_ros_network() {
+  export ROS_HOSTNAME=localhost
+  if getent hosts localhost >/dev/null; then return; fi
+  say "localhost does not resolve; adding it to /etc/hosts"
+  echo "127.0.0.1 localhost" | as_root tee -a /etc/hosts >/dev/null || say "could not write /etc/hosts; ROS will not start"
+}
+
 # Builds the given CMake targets.
 build() {
   local log="$BUILD/configure.log"
