@@ -22,7 +22,7 @@ DEBIAN_PACKAGES=(
   libstd-msgs-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libvisualization-msgs-dev libdiagnostic-msgs-dev
   libstd-srvs-dev libros-rosgraph-msgs-dev
   python3-std-srvs python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs
-  librostest-dev python3-rostest python3-roslaunch python3-rosbag python3-rosservice python3-rostopic rosbash rosout rospack-tools
+  librostest-dev python3-rostest python3-roslaunch python3-rosbag python3-rosservice python3-rostopic rosbash rosout rospack-tools rviz
   libeigen3-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev
   ocl-icd-opencl-dev opencl-headers
 )
