@@ -6,7 +6,6 @@
 #include <deque>
 
 #include "depth_fusion/pipeline/frame_tracker.h"
-#include "depth_fusion/pipeline/mapper.h"
 #include "ros/nodelets/pose_publisher.h"
 #include "ros/nodelets/rgbd_subscriber.h"
 #include "ros/nodelets/shared_map.h"
