@@ -1,51 +1,58 @@
-// The paper's start and end textures: for each 8x8 tile of the view, the range of depths in which a ray can hit. Only
-// blocks near the surface count. A work-item projects one block.
-//   nearest, farthest  depth in metres a tile; float bits as ints, whose order is the same for positive floats
+// Where the rays of each tile of the view can hit, by the octants of blocks that are near the surface. A work-item projects
+// a block's.
+#include "model_view/ray_ranges.h"
 #include "shared/block_map.h"
 #include "shared/image.h"
 
+typedef struct {
+  float3 lowest, highest;  // corners of a box along the axes of frame D
+} Box;
+
+inline void splat_box(const Box box, __global int *nearest, __global uint *occupied, const CameraArgs camera,
+                      const RayRangeArgs range) {
+  const float start = fmax(box.lowest.z, range.min_m), end = fmin(box.highest.z, range.max_m);
+  if (start > end) return;
+  // a box that reaches behind the camera covers what its part ahead of it covers
+  const float near = 1.0f / fmax(box.lowest.z, 1e-3f), far = 1.0f / box.highest.z;
+  const float u0 = camera.fx * fmin(box.lowest.x * near, box.lowest.x * far) + camera.cx;
+  const float u1 = camera.fx * fmax(box.highest.x * near, box.highest.x * far) + camera.cx;
+  const float v0 = camera.fy * fmin(box.lowest.y * near, box.lowest.y * far) + camera.cy;
+  const float v1 = camera.fy * fmax(box.highest.y * near, box.highest.y * far) + camera.cy;
+  if (u1 < 0.0f || v1 < 0.0f || u0 > camera.width - 1 || v0 > camera.height - 1) return;
+  const int x0 = (int)fmax(u0, 0.0f) / RANGE_TILE, x1 = (int)fmin(u1 + 1.0f, camera.width - 1.0f) / RANGE_TILE;
+  const int y0 = (int)fmax(v0, 0.0f) / RANGE_TILE, y1 = (int)fmin(v1 + 1.0f, camera.height - 1.0f) / RANGE_TILE;
+
+  const ulong bins = (2ul << (depth_bin(end, range) - depth_bin(start, range))) - 1 << depth_bin(start, range);
+  const uint low = (uint)bins, high = (uint)(bins >> 32);
+  for (int y = y0; y <= y1; ++y) {
+    for (int tile = y * tiles_across(camera.width) + x0; tile <= y * tiles_across(camera.width) + x1; ++tile) {
+      if (nearest[tile] > as_int(start)) atomic_min(nearest + tile, as_int(start));
+      if (low & ~occupied[2 * tile]) atomic_or(occupied + 2 * tile, low);
+      if (high & ~occupied[2 * tile + 1]) atomic_or(occupied + 2 * tile + 1, high);
+    }
+  }
+}
+
 __kernel void splat_block_ranges(__global const int4 *block_indices, __global const int *block_states, int slots,
-                                 __global int *nearest, __global int *farthest, CameraArgs camera,
-                                 TransformArgs T_D_W, GridArgs grid, float min_range_m, float max_range_m) {
+                                 __global int *nearest, __global uint *occupied, CameraArgs camera,
+                                 TransformArgs T_D_W, GridArgs grid, RayRangeArgs range) {
   const int slot = get_global_id(0);
   if (slot >= slots) return;
   const int4 index = block_indices[slot];
-  if (index.w == 0 || !(block_states[slot] & BLOCK_NEAR_SURFACE)) return;
-  const float size = grid.voxel_size_m;
-  const float block_m = size * BLOCK_SIZE;
-  const float3 corner = transform_point(T_D_W, convert_float3(index.xyz) * block_m);
-  const float3 axis_x = block_m * (float3)(T_D_W.rotation[0], T_D_W.rotation[3], T_D_W.rotation[6]);
-  const float3 axis_y = block_m * (float3)(T_D_W.rotation[1], T_D_W.rotation[4], T_D_W.rotation[7]);
-  const float3 axis_z = block_m * (float3)(T_D_W.rotation[2], T_D_W.rotation[5], T_D_W.rotation[8]);
-  const float z0 = corner.z + fmin(axis_x.z, 0.0f) + fmin(axis_y.z, 0.0f) + fmin(axis_z.z, 0.0f);
-  const float z1 = corner.z + fmax(axis_x.z, 0.0f) + fmax(axis_y.z, 0.0f) + fmax(axis_z.z, 0.0f);
-  if (z1 < min_range_m || z0 > max_range_m) return;
-
-  float u0 = 0.0f, v0 = 0.0f, u1 = camera.width - 1, v1 = camera.height - 1;
-  if (z0 > 0.05f) {
-    u0 = v0 = MAXFLOAT;
-    u1 = v1 = -MAXFLOAT;
-    for (int i = 0; i < 8; ++i) {
-      const float3 p = corner + (i & 1 ? axis_x : 0.0f) + (i & 2 ? axis_y : 0.0f) + (i & 4 ? axis_z : 0.0f);
-      const float u = camera.fx * p.x / p.z + camera.cx;
-      const float v = camera.fy * p.y / p.z + camera.cy;
-      u0 = fmin(u0, u);
-      u1 = fmax(u1, u);
-      v0 = fmin(v0, v);
-      v1 = fmax(v1, v);
-    }
-    if (u1 < 0.0f || v1 < 0.0f || u0 > camera.width - 1 || v0 > camera.height - 1) return;
-  }
-  const int tile_columns = (camera.width + RANGE_TILE - 1) / RANGE_TILE;
-  const int x0 = (int)fmax(u0, 0.0f) / RANGE_TILE, x1 = (int)fmin(u1 + 1.0f, camera.width - 1.0f) / RANGE_TILE;
-  const int y0 = (int)fmax(v0, 0.0f) / RANGE_TILE, y1 = (int)fmin(v1 + 1.0f, camera.height - 1.0f) / RANGE_TILE;
-  const int start = as_int(fmax(z0, min_range_m));
-  const int end = as_int(fmin(z1, max_range_m));
-  for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) {
-      const int tile = y * tile_columns + x;
-      if (nearest[tile] > start) atomic_min(nearest + tile, start);
-      if (farthest[tile] < end) atomic_max(farthest + tile, end);
-    }
+  const int octants = block_states[slot] & BLOCK_NEAR_SURFACE;
+  if (index.w == 0 || octants == 0) return;
+  const float quarter_m = 0.25f * grid.voxel_size_m * BLOCK_SIZE;
+  const float3 middle = transform_point(T_D_W, (convert_float3(index.xyz) + 0.5f) * (4.0f * quarter_m));
+  const float3 axis_x = quarter_m * (float3)(T_D_W.rotation[0], T_D_W.rotation[3], T_D_W.rotation[6]);
+  const float3 axis_y = quarter_m * (float3)(T_D_W.rotation[1], T_D_W.rotation[4], T_D_W.rotation[7]);
+  const float3 axis_z = quarter_m * (float3)(T_D_W.rotation[2], T_D_W.rotation[5], T_D_W.rotation[8]);
+  const float3 reach = fabs(axis_x) + fabs(axis_y) + fabs(axis_z);
+  if (middle.z + 2.0f * reach.z < range.min_m || middle.z - 2.0f * reach.z > range.max_m) return;
+  for (int octant = 0; octant < 8; ++octant) {
+    if (!(octants >> (octant + BLOCK_NEAR_SURFACE_SHIFT) & 1)) continue;
+    const float3 centre = middle + (octant & 1 ? axis_x : -axis_x) + (octant & 2 ? axis_y : -axis_y) +
+                          (octant & 4 ? axis_z : -axis_z);
+    const Box box = {centre - reach, centre + reach};
+    splat_box(box, nearest, occupied, camera, range);
   }
 }

@@ -1,6 +1,6 @@
 // Pictures of a model view. A work-item paints one pixel.
 //   picture  blue, green, red and 255 a pixel, without padding
-//   depth, normals  of the view (raycast_fine)
+//   depth, normals  of the view (raycast.cl)
 #include "shared/color_map.h"
 #include "shared/image.h"
 

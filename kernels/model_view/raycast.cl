@@ -1,218 +1,138 @@
-// Ray casting of the block-sparse map in two stages, as the paper has it: raycast_coarse finds the voxel where a ray
-// first goes from positive to negative distance, raycast_fine the surface in it by trilinear interpolation, and its
-// normal. Rays are parametrised by depth t (z in frame D): p(t) = origin + t * direction, in voxels from the first voxel
-// of the window, so that the conversion to integers, which truncates, rounds down. A work-item casts SIMD_WIDTH rays: of a
-// patch in raycast_coarse, for rays side by side in both axes end alike, and of a row in raycast_fine.
-#include "shared/block_map.h"
-#include "shared/image.h"
-#define MAX_STEPS 512
+// Ray casting of the block-sparse map, as the paper has it: a ray is followed to the voxel where the distance first goes from
+// positive to negative, where trilinear interpolation finds the surface, and its normal. One ray of every 2x2 pixels is
+// followed; the others look for the surface where its plane meets them, and are followed only if it is not there. So what
+// is narrower than two pixels may be taken for what lies behind it.
+#include "model_view/ray_march.h"
+#include "model_view/trilinear.h"
 #define PATCH_COLUMNS RAY_PATCH_COLUMNS(SIMD_WIDTH)
+#define PATCHES RAY_PATCHES(SIMD_WIDTH)
+#define PATCH_RAYS (RAY_STRIDE * RAY_STRIDE)
 
+// t: depth in metres; gradient of the distance in frame W, in steps of the distance byte a voxel; known: 0 = no surface
 typedef struct {
-  float origin_x, origin_y, origin_z;
-  vfloat direction_x, direction_y, direction_z;
-  vfloat t_per_voxel;  // depth travelled in a voxel's length of the ray
-} Rays;
-
-inline Rays make_rays(vint u, vint v, const CameraArgs camera, const TransformArgs T_W_D, const GridArgs grid) {
-  const float per_voxel = 1.0f / grid.voxel_size_m;
-  const vfloat x = (TO_VFLOAT(u) - camera.cx) * (per_voxel / camera.fx);
-  const vfloat y = (TO_VFLOAT(v) - camera.cy) * (per_voxel / camera.fy);
-  const float z = per_voxel;
-  Rays rays;
-  rays.origin_x = T_W_D.translation[0] * per_voxel - grid.origin[0] * BLOCK_SIZE;
-  rays.origin_y = T_W_D.translation[1] * per_voxel - grid.origin[1] * BLOCK_SIZE;
-  rays.origin_z = T_W_D.translation[2] * per_voxel - grid.origin[2] * BLOCK_SIZE;
-  rays.direction_x = T_W_D.rotation[0] * x + (T_W_D.rotation[1] * y + T_W_D.rotation[2] * z);
-  rays.direction_y = T_W_D.rotation[3] * x + (T_W_D.rotation[4] * y + T_W_D.rotation[5] * z);
-  rays.direction_z = T_W_D.rotation[6] * x + (T_W_D.rotation[7] * y + T_W_D.rotation[8] * z);
-  rays.t_per_voxel = rsqrt(rays.direction_x * rays.direction_x + rays.direction_y * rays.direction_y +
-                           rays.direction_z * rays.direction_z);
-  return rays;
-}
-
-// 1 / direction, large but finite for a ray across the axis.
-inline vfloat inverse_direction(vfloat direction) {
-  return 1.0f / select(direction, (vfloat)(1e-9f), fabs(direction) < 1e-9f);
-}
-
-// Depth t at which a ray leaves a block along one axis.
-inline vfloat exit_depth(vint block, float origin, vfloat inverse) {
-  const vint boundary = select(block, block + 1, inverse > 0.0f) << BLOCK_SIZE_LOG2;
-  return (TO_VFLOAT(boundary) - origin) * inverse;
-}
-
-// Wraps block coordinates of the window, already in it, to the coordinates of its offsets.
-inline vint wrap(vint block, int wrapped_origin, int blocks_per_axis) {
-  const vint wrapped = block + wrapped_origin;
-  return select(wrapped, wrapped - blocks_per_axis, wrapped >= blocks_per_axis);
-}
-
-inline vint in_window(vint block, int blocks_per_axis) { return AS_VUINT(block) < (uint)blocks_per_axis; }
-
-// coarse: depth of the hit in metres a pixel, 0 = none
-__kernel void raycast_coarse(__global const int *offsets, __global const char *voxels, __global const float *nearest,
-                             __global const float *farthest, __global float *coarse, CameraArgs camera,
-                             TransformArgs T_W_D, GridArgs grid) {
-  const int x = get_global_id(0) * PATCH_COLUMNS;
-  const int y = get_global_id(1) * (SIMD_WIDTH / PATCH_COLUMNS);
-  if (x >= camera.width || y >= camera.height) return;
-  const vint u = x + LANE_INDICES % PATCH_COLUMNS;
-  const vint v = y + LANE_INDICES / PATCH_COLUMNS;
-  const Rays rays = make_rays(u, v, camera, T_W_D, grid);
-  // blocks hold the points that round to their voxels
-  const float origin_x = rays.origin_x + 0.5f, origin_y = rays.origin_y + 0.5f, origin_z = rays.origin_z + 0.5f;
-  const vfloat inverse_x = inverse_direction(rays.direction_x);
-  const vfloat inverse_y = inverse_direction(rays.direction_y);
-  const vfloat inverse_z = inverse_direction(rays.direction_z);
-  const int n = grid.blocks_per_axis;
-  const int tile = y / RANGE_TILE * ((camera.width + RANGE_TILE - 1) / RANGE_TILE) + x / RANGE_TILE;
-  const vfloat end = farthest[tile];
-  vfloat t = nearest[tile];
-  const float truncation_voxels = grid.truncation_m / grid.voxel_size_m;
-  const vfloat t_per_step = rays.t_per_voxel * (truncation_voxels / TSDF_MAX);
-  const vfloat chi_step_t = rays.t_per_voxel * fmax(1.0f, 0.75f * truncation_voxels);
-
-  vfloat hit_t = 0.0f;
-  vfloat previous_t = t;
-  vint previous = TSDF_CHI;
-  vint active = (t < end) & (u < camera.width);
-  for (int i = 0; i < MAX_STEPS && ANY(active); ++i) {
-    const vint vx = TO_VINT(origin_x + t * rays.direction_x);
-    const vint vy = TO_VINT(origin_y + t * rays.direction_y);
-    const vint vz = TO_VINT(origin_z + t * rays.direction_z);
-    const vint bx = vx >> BLOCK_SIZE_LOG2;
-    const vint by = vy >> BLOCK_SIZE_LOG2;
-    const vint bz = vz >> BLOCK_SIZE_LOG2;
-    const vint inside = active & in_window(bx, n) & in_window(by, n) & in_window(bz, n);
-    const vint address = wrap(bx, grid.wrapped_origin[0], n) +
-                         n * (wrap(by, grid.wrapped_origin[1], n) + n * wrap(bz, grid.wrapped_origin[2], n));
-    const vint slot = select((vint)(-1), GATHER(vint, offsets, select((vint)(0), address, inside)), inside);
-    const vint allocated = slot >= 0;
-    const vint in_block = (vx & (BLOCK_SIZE - 1)) + ((vy & (BLOCK_SIZE - 1)) << BLOCK_SIZE_LOG2) +
-                          ((vz & (BLOCK_SIZE - 1)) << (2 * BLOCK_SIZE_LOG2));
-    const vint voxel = select((vint)(0), slot * (2 * BLOCK_VOXELS) + in_block, allocated);
-    const vint distance = select((vint)(TSDF_CHI), TO_VINT(GATHER(vchar, voxels, voxel)), allocated);
-    const vint known = distance != TSDF_CHI;
-
-    // A step from an unknown voxel may end a little behind the surface: then the distance leads back. Farther behind,
-    // the ray came from the surface's back.
-    const vint behind = active & known & (distance <= 0);
-    const vint crossed = behind & (previous > 0);
-    const vint overshot = behind & (previous == TSDF_CHI) & (distance > -TSDF_MAX / 2);
-    const vfloat fraction = TO_VFLOAT(previous) / TO_VFLOAT(max(previous - distance, (vint)(1)));
-    const vfloat steps = TO_VFLOAT(distance);
-    hit_t = select(hit_t, previous_t + (t - previous_t) * fraction, crossed);
-    hit_t = select(hit_t, t + steps * t_per_step, overshot);
-    active = active & NOT(crossed | overshot);
-
-    previous_t = t;
-    previous = distance;
-    const vfloat near_step_t = max(0.8f * fabs(steps) * t_per_step, rays.t_per_voxel);
-    vfloat next_t = t + select(chi_step_t, near_step_t, known);
-    if (ANY(active & NOT(allocated))) {
-      const vfloat exit = min(exit_depth(bx, origin_x, inverse_x),
-                              min(exit_depth(by, origin_y, inverse_y), exit_depth(bz, origin_z, inverse_z)));
-      next_t = select(max(exit, t) + 0.05f * rays.t_per_voxel, next_t, allocated);
-    }
-    t = next_t;
-    active = active & (t < end);
-  }
-  float lanes[SIMD_WIDTH];
-  VSTORE(hit_t, lanes);
-  for (int i = 0; i < SIMD_WIDTH; ++i) {
-    const int row = y + i / PATCH_COLUMNS;
-    if (row < camera.height) coarse[pixel_index(x + i % PATCH_COLUMNS, row, camera)] = lanes[i];
-  }
-}
-
-// Offsets, along one axis, of the two voxels around a coordinate: of their blocks in the window (or outside), and in
-// their blocks.
-typedef struct {
-  vint block[2], in_block[2], inside[2];
-} AxisNeighbours;
-
-inline AxisNeighbours axis_neighbours(vint voxel, int axis, const GridArgs grid) {
-  AxisNeighbours result;
-  for (int i = 0; i < 2; ++i) {
-    const vint v = voxel + i;
-    const vint block = v >> BLOCK_SIZE_LOG2;
-    result.inside[i] = in_window(block, grid.blocks_per_axis);
-    result.block[i] = wrap(block, grid.wrapped_origin[axis], grid.blocks_per_axis);
-    result.in_block[i] = v & (BLOCK_SIZE - 1);
-  }
-  return result;
-}
-
-// Trilinear interpolation of the distance at p, in steps of the distance byte, and its gradient in steps a voxel.
-// known: 0 where one of the eight voxels is chi.
-typedef struct {
-  vfloat value, gradient_x, gradient_y, gradient_z;
+  vfloat t, gradient_x, gradient_y, gradient_z;
   vint known;
-} Sample;
+} Surface;
 
-inline Sample interpolate(vfloat px, vfloat py, vfloat pz, vint active, __global const int *offsets,
-                          __global const char *voxels, const GridArgs grid) {
-  const vint vx = TO_VINT(px), vy = TO_VINT(py), vz = TO_VINT(pz);
-  const AxisNeighbours nx = axis_neighbours(vx, 0, grid);
-  const AxisNeighbours ny = axis_neighbours(vy, 1, grid);
-  const AxisNeighbours nz = axis_neighbours(vz, 2, grid);
-  const int n = grid.blocks_per_axis;
-  Sample sample;
-  sample.known = active;
-  vfloat corner[8];
-  for (int i = 0; i < 8; ++i) {
-    const int cx = i & 1, cy = (i >> 1) & 1, cz = i >> 2;
-    const vint inside = sample.known & nx.inside[cx] & ny.inside[cy] & nz.inside[cz];
-    const vint address = select((vint)(0), nx.block[cx] + n * (ny.block[cy] + n * nz.block[cz]), inside);
-    const vint slot = select((vint)(-1), GATHER(vint, offsets, address), inside);
-    const vint in_block =
-        nx.in_block[cx] + (ny.in_block[cy] << BLOCK_SIZE_LOG2) + (nz.in_block[cz] << (2 * BLOCK_SIZE_LOG2));
-    const vint allocated = slot >= 0;
-    const vint voxel = select((vint)(0), slot * (2 * BLOCK_VOXELS) + in_block, allocated);
-    const vint distance = TO_VINT(GATHER(vchar, voxels, voxel));
-    sample.known = inside & allocated & (distance != TSDF_CHI);
-    corner[i] = TO_VFLOAT(distance);
+inline vfloat along(const Rays rays, const Surface surface) {
+  return surface.gradient_x * rays.direction_x + surface.gradient_y * rays.direction_y +
+         surface.gradient_z * rays.direction_z;
+}
+
+// By one Newton step from t, which is about a voxel away at most.
+inline Surface find_surface(const Rays rays, vfloat t, vint active, const Point origin, __global const int *offsets,
+                            __global const char *voxels, const GridArgs grid) {
+  const Sample sample = interpolate(origin.x + t * rays.direction_x, origin.y + t * rays.direction_y,
+                                    origin.z + t * rays.direction_z, active, offsets, voxels, grid);
+  Surface surface = {t, sample.gradient_x, sample.gradient_y, sample.gradient_z, sample.known};
+  const vfloat slope = along(rays, surface);
+  const vfloat limit_t = 1.5f * rays.t_per_voxel;
+  surface.t -= clamp(sample.value / slope, -limit_t, limit_t);
+  surface.known &= slope < 0.0f;
+  return surface;
+}
+
+// Where other rays, a pixel beside, meet the plane of a surface, if the surface is there.
+inline Surface find_beside(const Rays rays, const Rays first_rays, const Surface first, vint in_view,
+                           const Point origin, __global const int *offsets, __global const char *voxels,
+                           const GridArgs grid) {
+  const vfloat t = first.t * along(first_rays, first) / along(rays, first);
+  const vint expected = in_view & first.known & (fabs(t - first.t) < 3.0f * rays.t_per_voxel);
+  Surface surface = find_surface(rays, t, expected, origin, offsets, voxels, grid);
+  surface.known &= fabs(surface.t - t) < 0.5f * rays.t_per_voxel;
+  return surface;
+}
+
+inline Surface choose(const Surface a, const Surface b, vint use_b) {
+  const Surface chosen = {select(a.t, b.t, use_b), select(a.gradient_x, b.gradient_x, use_b),
+                          select(a.gradient_y, b.gradient_y, use_b), select(a.gradient_z, b.gradient_z, use_b),
+                          a.known | b.known};
+  return chosen;
+}
+
+// Stores rows of values that stand side by side in turn, of pixels with even and with odd columns.
+inline void store_rows(vfloat even, vfloat odd, int x, int y, __global float *image, const CameraArgs camera) {
+#if SIMD_WIDTH == 1
+  if (y >= camera.height) return;
+  image[pixel_index(x, y, camera)] = even;
+  image[pixel_index(x + 1, y, camera)] = odd;
+#else
+  float evens[SIMD_WIDTH], odds[SIMD_WIDTH];
+  VSTORE(even, evens);
+  VSTORE(odd, odds);
+  for (int i = 0; i < SIMD_WIDTH / 4 && y + RAY_STRIDE * i < camera.height; ++i) {
+    const float4 a = vload4(i, evens), b = vload4(i, odds);
+    const float8 row = (float8)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3);
+    vstore8(row, 0, image + pixel_index(x, y + RAY_STRIDE * i, camera));
   }
-  const vfloat x = px - TO_VFLOAT(vx), y = py - TO_VFLOAT(vy), z = pz - TO_VFLOAT(vz);
-  const vfloat x00 = corner[1] - corner[0], x10 = corner[3] - corner[2];
-  const vfloat x01 = corner[5] - corner[4], x11 = corner[7] - corner[6];
-  const vfloat v00 = corner[0] + x * x00, v10 = corner[2] + x * x10;
-  const vfloat v01 = corner[4] + x * x01, v11 = corner[6] + x * x11;
-  const vfloat v0 = v00 + y * (v10 - v00), v1 = v01 + y * (v11 - v01);
-  const vfloat gx0 = x00 + y * (x10 - x00), gx1 = x01 + y * (x11 - x01);
-  sample.value = v0 + z * (v1 - v0);
-  sample.gradient_x = gx0 + z * (gx1 - gx0);
-  sample.gradient_y = (v10 - v00) + z * ((v11 - v01) - (v10 - v00));
-  sample.gradient_z = v1 - v0;
-  return sample;
+#endif
+}
+
+// Component i of the normal in frame D, by the rotation's transpose.
+inline vfloat normal_component(const Surface surface, int i, const TransformArgs T_W_D) {
+  const vfloat gx = surface.gradient_x, gy = surface.gradient_y, gz = surface.gradient_z;
+  const vfloat component = T_W_D.rotation[i] * gx + T_W_D.rotation[3 + i] * gy + T_W_D.rotation[6 + i] * gz;
+  return select((vfloat)(0.0f), component * rsqrt(gx * gx + gy * gy + gz * gz), surface.known);
+}
+
+inline void store_surfaces(const Surface even, const Surface odd, int x, int y, __global float *depth,
+                           __global float *normals, int plane, const CameraArgs camera,
+                           const TransformArgs T_W_D) {
+  store_rows(select((vfloat)(0.0f), even.t, even.known), select((vfloat)(0.0f), odd.t, odd.known), x, y, depth,
+             camera);
+  for (int i = 0; i < 3; ++i) {
+    store_rows(normal_component(even, i, T_W_D), normal_component(odd, i, T_W_D), x, y, normals + i * plane, camera);
+  }
 }
 
 // depth: metres, 0 = none; normals: three planes of `plane` elements, unit, towards free space, in frame D
-__kernel void raycast_fine(__global const int *offsets, __global const char *voxels, __global const float *coarse,
-                           __global float *depth, __global float *normals, int plane, CameraArgs camera,
-                           TransformArgs T_W_D, GridArgs grid) {
-  const int x = get_global_id(0) * SIMD_WIDTH;
-  const int y = get_global_id(1);
-  if (x >= camera.width) return;
-  const int index = pixel_index(x, y, camera);
-  const Rays rays = make_rays(x + LANE_INDICES, (vint)(y), camera, T_W_D, grid);
-  vfloat t = VLOAD(coarse + index);
-  const Sample sample = interpolate(rays.origin_x + t * rays.direction_x, rays.origin_y + t * rays.direction_y,
-                                    rays.origin_z + t * rays.direction_z, t > 0.0f, offsets, voxels, grid);
-  const vfloat gx = sample.gradient_x, gy = sample.gradient_y, gz = sample.gradient_z;
-  const vfloat slope = gx * rays.direction_x + gy * rays.direction_y + gz * rays.direction_z;
-  const vint known = sample.known & (slope < 0.0f);
-  // one Newton step; the coarse hit is less than a voxel away
-  const vfloat limit = 1.5f * rays.t_per_voxel;
-  t -= clamp(sample.value / slope, -limit, limit);
-  const vfloat scale = rsqrt(gx * gx + gy * gy + gz * gz);
-  // frame D: the rotation's transpose
-  const vfloat nx = T_W_D.rotation[0] * gx + T_W_D.rotation[3] * gy + T_W_D.rotation[6] * gz;
-  const vfloat ny = T_W_D.rotation[1] * gx + T_W_D.rotation[4] * gy + T_W_D.rotation[7] * gz;
-  const vfloat nz = T_W_D.rotation[2] * gx + T_W_D.rotation[5] * gy + T_W_D.rotation[8] * gz;
-  VSTORE(select((vfloat)(0.0f), t, known), depth + index);
-  VSTORE(select((vfloat)(0.0f), nx * scale, known), normals + index);
-  VSTORE(select((vfloat)(0.0f), ny * scale, known), normals + index + plane);
-  VSTORE(select((vfloat)(0.0f), nz * scale, known), normals + index + 2 * plane);
+__kernel void raycast(__global const int *offsets, __global const char *voxels, __global const float *nearest,
+                      __global const uint *occupied, __global float *depth, __global float *normals, int plane,
+                      CameraArgs camera, TransformArgs T_W_D, GridArgs grid, RayRangeArgs range) {
+  const int x = get_global_id(0) * (PATCHES * RAY_STRIDE * PATCH_COLUMNS);
+  const int y = get_global_id(1) * (RAY_STRIDE * SIMD_WIDTH / PATCH_COLUMNS);
+  if (x >= camera.width || y >= camera.height) return;
+  const Point origin = ray_origin(T_W_D, grid);
+  const vint u = x + RAY_STRIDE * (LANE_INDICES % PATCH_COLUMNS);
+  const vint v = y + RAY_STRIDE * (LANE_INDICES / PATCH_COLUMNS);
+
+  March firsts[PATCHES];
+  for (int i = 0; i < PATCHES; ++i) {
+    const vint column = u + i * (RAY_STRIDE * PATCH_COLUMNS);
+    const vint in_view = (column < camera.width) & (v < camera.height);
+    const TileRange tile = tile_range(x + i * (RAY_STRIDE * PATCH_COLUMNS), y, nearest, occupied, camera);
+    firsts[i] = begin_march(make_rays(column, v, camera, T_W_D, grid), in_view, tile, range);
+  }
+  follow(firsts, PATCHES, origin, offsets, voxels, grid, range);
+
+  for (int i = 0; i < PATCHES; ++i) {
+    const int patch_x = x + i * (RAY_STRIDE * PATCH_COLUMNS);
+    const TileRange tile = tile_range(patch_x, y, nearest, occupied, camera);
+    const Rays first_rays = firsts[i].rays;
+    const Surface first =
+        find_surface(first_rays, firsts[i].hit_t, firsts[i].hit_t > 0.0f, origin, offsets, voxels, grid);
+    Surface surfaces[PATCH_RAYS];
+    March marches[PATCH_RAYS];
+    vint any_missing = 0;
+    surfaces[0] = first;
+    for (int k = 1; k < PATCH_RAYS; ++k) {
+      const vint column = u + (i * (RAY_STRIDE * PATCH_COLUMNS) + k % RAY_STRIDE), row = v + k / RAY_STRIDE;
+      const vint in_view = (column < camera.width) & (row < camera.height);
+      const Rays rays = make_rays(column, row, camera, T_W_D, grid);
+      surfaces[k] = find_beside(rays, first_rays, first, in_view, origin, offsets, voxels, grid);
+      const vint missing = in_view & NOT(surfaces[k].known);
+      marches[k] = begin_march(rays, missing, tile, range);
+      any_missing |= missing;
+    }
+    if (ANY(any_missing)) {
+      follow(marches + 1, PATCH_RAYS - 1, origin, offsets, voxels, grid, range);
+      for (int k = 1; k < PATCH_RAYS; ++k) {
+        const vint hit = marches[k].hit_t > 0.0f;
+        surfaces[k] = choose(surfaces[k], find_surface(marches[k].rays, marches[k].hit_t, hit, origin, offsets, voxels, grid), hit);
+      }
+    }
+    for (int k = 0; k < PATCH_RAYS; k += RAY_STRIDE) {
+      store_surfaces(surfaces[k], surfaces[k + 1], patch_x, y + k / RAY_STRIDE, depth, normals, plane, camera, T_W_D);
+    }
+  }
 }

@@ -4,6 +4,10 @@
 #define SIMD_WIDTH 1
 #endif
 
+// PoCL would call large functions, and copy their structs byte by byte.
+#undef inline
+#define inline static __attribute__((always_inline))
+
 // A vector of global memory whose address is a multiple of its size. vload and vstore assume less: PoCL stores bytes one by one.
 #define ALIGNED(type, pointer) (*(__global type *)(pointer))
 
@@ -31,7 +35,10 @@ typedef uchar vuchar;
 #define NOT(mask) (!(mask))
 #define LANE_INDICES 0
 #define GATHER(type, pointer, i) ((pointer)[i])
+#define GATHER_BYTES(pointer, i) ((int)(pointer)[i])
+#define GATHER_FOUR_BYTES(pointer, i) as_int(vload4(0, (pointer) + (i)))
 #define SUM_LANES(v) (v)
+#define LEAST(v) (v)
 #else
 typedef SIMD_JOIN(float, SIMD_WIDTH) vfloat;
 typedef SIMD_JOIN(int, SIMD_WIDTH) vint;
@@ -56,11 +63,19 @@ typedef SIMD_JOIN(uchar, SIMD_WIDTH) vuchar;
 #define GATHER(type, p, i)                                                                           \
   ((type)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], \
           (p)[(i).s7]))
+#define GATHER_FOUR_BYTES_(p, i) \
+  ((vint)(FOUR_BYTES(p, (i).s0), FOUR_BYTES(p, (i).s1), FOUR_BYTES(p, (i).s2), FOUR_BYTES(p, (i).s3), \
+          FOUR_BYTES(p, (i).s4), FOUR_BYTES(p, (i).s5), FOUR_BYTES(p, (i).s6), FOUR_BYTES(p, (i).s7)))
 inline bool any_lane(int8 mask) { return as_long(convert_char8(mask)) != 0; }
 inline float sum_lanes(float8 v) {
   const float4 a = v.lo + v.hi;
   const float2 b = a.lo + a.hi;
   return b.x + b.y;
+}
+inline float least_lane(float8 v) {
+  const float4 a = min(v.lo, v.hi);
+  const float2 b = min(a.lo, a.hi);
+  return min(b.x, b.y);
 }
 #else
 #define LANE_INDICES ((vint)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
@@ -68,6 +83,11 @@ inline float sum_lanes(float8 v) {
   ((type)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6],     \
           (p)[(i).s7], (p)[(i).s8], (p)[(i).s9], (p)[(i).sa], (p)[(i).sb], (p)[(i).sc], (p)[(i).sd],     \
           (p)[(i).se], (p)[(i).sf]))
+#define GATHER_FOUR_BYTES_(p, i) \
+  ((vint)(FOUR_BYTES(p, (i).s0), FOUR_BYTES(p, (i).s1), FOUR_BYTES(p, (i).s2), FOUR_BYTES(p, (i).s3), \
+          FOUR_BYTES(p, (i).s4), FOUR_BYTES(p, (i).s5), FOUR_BYTES(p, (i).s6), FOUR_BYTES(p, (i).s7), \
+          FOUR_BYTES(p, (i).s8), FOUR_BYTES(p, (i).s9), FOUR_BYTES(p, (i).sa), FOUR_BYTES(p, (i).sb), \
+          FOUR_BYTES(p, (i).sc), FOUR_BYTES(p, (i).sd), FOUR_BYTES(p, (i).se), FOUR_BYTES(p, (i).sf)))
 inline bool any_lane(int16 mask) {
   const long2 lanes = as_long2(convert_char16(mask));
   return (lanes.x | lanes.y) != 0;
@@ -78,6 +98,22 @@ inline float sum_lanes(float16 v) {
   const float2 c = b.lo + b.hi;
   return c.x + c.y;
 }
+inline float least_lane(float16 v) {
+  const float8 a = min(v.lo, v.hi);
+  const float4 b = min(a.lo, a.hi);
+  const float2 c = min(b.lo, b.hi);
+  return min(c.x, c.y);
+}
 #endif
+// Signed bytes, as integers. A gather of words and shifts are faster on CPUs than one of bytes.
+#define GATHER_BYTES(pointer, i) \
+  (GATHER(vint, (__global const int *)(pointer), (i) >> 2) << (24 - (((i) & 3) << 3)) >> 24)
+// Four bytes from each place on, the first one the lowest of a word.
+typedef struct __attribute__((packed)) {
+  int word;
+} UnalignedInt;
+#define FOUR_BYTES(pointer, i) (((__global const UnalignedInt *)((pointer) + (i)))->word)
+#define GATHER_FOUR_BYTES(pointer, i) GATHER_FOUR_BYTES_(pointer, i)
 #define SUM_LANES(v) sum_lanes(v)
+#define LEAST(v) least_lane(v)
 #endif

@@ -10,8 +10,9 @@
 #define BLOCK_REQUESTED (-2)   // claimed by block selection, to be allocated by the host
 
 // Bits of a block's state, written by TSDF fusion.
-#define BLOCK_HAS_DATA 1       // some voxel is not chi
-#define BLOCK_NEAR_SURFACE 2   // some voxel lies within a voxel's diagonal of the surface
+#define BLOCK_HAS_DATA 1         // some voxel is not chi
+#define BLOCK_NEAR_SURFACE 0x1fe // some voxel lies within a voxel's diagonal of the surface: a bit an octant of the block,
+#define BLOCK_NEAR_SURFACE_SHIFT 1 // from this one on, in x, y and z
 
 // Voxels that a work-item of the kernels over whole blocks takes: one on a GPU; on a CPU a block, or a large block's slice.
 #define VOXELS_PER_ITEM(simd_width, block_size) \
@@ -38,8 +39,14 @@
 #define DEPTH_TILE 16
 #define RANGE_TILE 8
 
-// Columns of the patch of pixels whose rays a work-item casts; patches do not straddle tiles of ranges.
+// Bins of depth in which a tile's rays may hit, a bit each.
+#define DEPTH_BINS 64
+
+// Rays are cast in patches of pixels, of which one in RAY_STRIDE in each axis makes a vector, RAY_PATCH_COLUMNS in a row; a
+// work-item casts RAY_PATCHES patches side by side. Patches do not straddle tiles of ranges.
+#define RAY_STRIDE 2
 #define RAY_PATCH_COLUMNS(simd_width) ((simd_width) == 1 ? 1 : 4)
+#define RAY_PATCHES(simd_width) ((simd_width) == 1 ? 1 : 4)
 
 // Images are planar, IMAGE_GUARD elements, then rows of `pitch` elements, then IMAGE_GUARD elements. Guards and the
 // columns from width on, 16 at least, hold zeros: vectors may be loaded up to 16 elements beside the image.
@@ -87,6 +94,12 @@ typedef struct {
   float spatial_weights[3];
   float cutoff_sigmas;
 } BilateralArgs;
+
+// The depths that rays are cast between, and their bins.
+typedef struct {
+  float min_m, max_m;
+  float bins_per_m;
+} RayRangeArgs;
 
 // Where and how densely block selection samples the depth image.
 typedef struct {

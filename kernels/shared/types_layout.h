@@ -32,6 +32,10 @@
   STRUCT(BilateralArgs)                      \
   MEMBER(BilateralArgs, spatial_weights)     \
   MEMBER(BilateralArgs, cutoff_sigmas)       \
+  STRUCT(RayRangeArgs)                       \
+  MEMBER(RayRangeArgs, min_m)                \
+  MEMBER(RayRangeArgs, max_m)                \
+  MEMBER(RayRangeArgs, bins_per_m)           \
   STRUCT(SelectionArgs)                      \
   MEMBER(SelectionArgs, stride_px)           \
   MEMBER(SelectionArgs, band_samples)        \

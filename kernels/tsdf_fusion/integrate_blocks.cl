@@ -21,12 +21,21 @@ inline vuchar magnitude(vchar value) {
   return AS_VUCHAR(select(value, (vchar)(-value), (vchar)(value < (vchar)(0))));
 }
 
-// BLOCK_* bits of a block, or of the part that a work-item has of it, by the smallest magnitude of its distances.
-inline int state_of(vuchar smallest, float near_steps) {
-  uchar lanes[SIMD_WIDTH];
-  VSTORE(smallest, lanes);
-  for (int i = 1; i < SIMD_WIDTH; ++i) lanes[0] = min(lanes[0], lanes[i]);
-  return (lanes[0] <= TSDF_MAX ? BLOCK_HAS_DATA : 0) | (lanes[0] <= near_steps ? BLOCK_NEAR_SURFACE : 0);
+#define HALF_BLOCK_LOG2 (BLOCK_SIZE_LOG2 - 1)
+
+// The bits of BLOCK_NEAR_SURFACE of a vector of voxels.
+inline vint octant_bits(int first_voxel) {
+  const vint voxel = first_voxel + LANE_INDICES;
+  const vint octant = (voxel >> HALF_BLOCK_LOG2 & 1) | (voxel >> (BLOCK_SIZE_LOG2 + HALF_BLOCK_LOG2) & 1) << 1 |
+                      (voxel >> (2 * BLOCK_SIZE_LOG2 + HALF_BLOCK_LOG2) & 1) << 2;
+  return (vint)(1) << (octant + BLOCK_NEAR_SURFACE_SHIFT);
+}
+
+inline int any_bits(vint bits) {
+  int lanes[SIMD_WIDTH];
+  VSTORE(bits, lanes);
+  for (int i = 1; i < SIMD_WIDTH; ++i) lanes[0] |= lanes[i];
+  return lanes[0];
 }
 
 __kernel void integrate_blocks(__global char *voxels, __global const int *visible, int visible_count,
@@ -51,7 +60,8 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
   // All the rays through a block are taken to be as steep as the one through its middle.
   const float3 middle = transform_point(T_D_W, (convert_float3(block) + 0.5f) * block_m);
   const float ray_length = length(middle) / fmax(middle.z, grid.voxel_size_m);
-  vuchar smallest = 128;
+  const vuchar near_steps = (vuchar)(min(1.7320508f * grid.voxel_size_m * steps_per_m, (float)TSDF_MAX));
+  vint state = 0;
 
   for (int slice = first_voxel; slice < first_voxel + ITEM_VOXELS; slice += SLICE_VOXELS) {
     // A slice's pixels are read before any is used, so that a CPU need not wait for one after the other.
@@ -95,10 +105,11 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
         ALIGNED(vchar, distances + voxel) = distance;
         ALIGNED(vuchar, certainties + voxel) = new_byte;
       }
-      smallest = min(smallest, magnitude(distance));
+      state |= select((vint)(0), (vint)(BLOCK_HAS_DATA), TO_VINT(distance != (vchar)(TSDF_CHI)));
+      state |= select((vint)(0), octant_bits(voxel), TO_VINT(magnitude(distance) <= near_steps));
     }
   }
 
-  const int state = state_of(smallest, 1.7320508f * grid.voxel_size_m * steps_per_m);
-  if ((block_states[slot] & state) != state) atomic_or(block_states + slot, state);
+  const int bits = any_bits(state);
+  if ((block_states[slot] & bits) != bits) atomic_or(block_states + slot, bits);
 }

@@ -15,8 +15,9 @@ constexpr size_t kPictureBytes = 4;        // a pixel
 
 size_t pixelsOf(const CameraIntrinsics& camera) { return static_cast<size_t>(camera.width) * camera.height; }
 
-size_t rangeTiles(const CameraIntrinsics& camera, int tile) {
-  return static_cast<size_t>((camera.width + tile - 1) / tile) * ((camera.height + tile - 1) / tile);
+size_t rangeTiles(const CameraIntrinsics& camera) {
+  const auto tiles = [](int pixels) { return static_cast<size_t>((pixels + RANGE_TILE - 1) / RANGE_TILE); };
+  return tiles(camera.width) * tiles(camera.height);
 }
 
 std::shared_ptr<ModelView> makeView(ComputeContext& compute, const CameraIntrinsics& camera) {
@@ -34,9 +35,8 @@ ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& ma
     : compute_(compute),
       map_(map),
       views_([&compute, camera] { return makeView(compute, camera); }),
-      nearest_(compute, rangeTiles(camera, RANGE_TILE) * sizeof(float), "ray ranges"),
-      farthest_(compute, rangeTiles(camera, RANGE_TILE) * sizeof(float), "ray ranges"),
-      coarse_(zeroImage(compute, camera, 1)),
+      nearest_(compute, rangeTiles(camera) * sizeof(float), "ray ranges"),
+      occupied_(compute, rangeTiles(camera) * (DEPTH_BINS / 8), "ray ranges"),
       kernels_(std::make_unique<Kernels>(compute, map.parameters())) {}
 
 ModelViewRenderer::~ModelViewRenderer() = default;
@@ -45,21 +45,17 @@ const ModelView& ModelViewRenderer::render(const Pose& T_W_D, float min_range_m,
                                            StageTimers& timers) {
   ModelView& view = *views_.next();
   view.T_W_D = T_W_D;
+  const RayRangeArgs range = {min_range_m, max_range_m, DEPTH_BINS / (max_range_m - min_range_m)};
   {
     const StageTimers::Scope timer(timers, "model_view/ranges");
     nearest_.fill(kFarFloatBits, nearest_.bytes());
-    farthest_.fill(0, farthest_.bytes());
-    kernels_->splatBlockRanges(map_, nearest_, farthest_, view, min_range_m, max_range_m);
+    occupied_.fill(0, occupied_.bytes());
+    kernels_->splatBlockRanges(map_, nearest_, occupied_, view, range);
     compute_.finish();
   }
   {
-    const StageTimers::Scope timer(timers, "model_view/coarse");
-    kernels_->raycastCoarse(map_, nearest_, farthest_, coarse_, view);
-    compute_.finish();
-  }
-  {
-    const StageTimers::Scope timer(timers, "model_view/fine");
-    kernels_->raycastFine(map_, coarse_, view);
+    const StageTimers::Scope timer(timers, "model_view/raycast");
+    kernels_->raycast(map_, nearest_, occupied_, view, range);
     compute_.finish();
   }
   return view;

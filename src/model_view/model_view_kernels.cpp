@@ -8,34 +8,26 @@ namespace depth_fusion {
 ModelViewRenderer::Kernels::Kernels(ComputeContext& compute, const MapParameters& map)
     : simd_width_(compute.impl().simd_width),
       ranges_(compute, "model_view/block_ranges.cl", "splat_block_ranges", blockSizeOption(map)),
-      coarse_(compute, "model_view/raycast.cl", "raycast_coarse", blockSizeOption(map)),
-      fine_(compute, "model_view/raycast.cl", "raycast_fine", blockSizeOption(map)),
+      raycast_(compute, "model_view/raycast.cl", "raycast", blockSizeOption(map)),
       shade_(compute, "model_view/pictures.cl", "shade_view", blockSizeOption(map)),
       color_(compute, "model_view/pictures.cl", "color_view", blockSizeOption(map)) {}
 
 void ModelViewRenderer::Kernels::splatBlockRanges(BlockSparseMap& map, DeviceBuffer& nearest,
-                                                  DeviceBuffer& farthest, const ModelView& view,
-                                                  float min_range_m, float max_range_m) {
-  ranges_.run(map.slotBound(), map.blockIndices(), map.blockStates(), map.slotBound(), nearest, farthest,
-              toArgs(view.camera), toArgs(Pose(view.T_W_D.inverse())), gridArgs(map), min_range_m,
-              max_range_m);
+                                                  DeviceBuffer& occupied, const ModelView& view,
+                                                  const RayRangeArgs& range) {
+  ranges_.run(map.slotBound(), map.blockIndices(), map.blockStates(), map.slotBound(), nearest, occupied,
+              toArgs(view.camera), toArgs(Pose(view.T_W_D.inverse())), gridArgs(map), range);
 }
 
-void ModelViewRenderer::Kernels::raycastCoarse(BlockSparseMap& map, const DeviceBuffer& nearest,
-                                               const DeviceBuffer& farthest, DeviceBuffer& coarse,
-                                               const ModelView& view) {
-  const int columns = RAY_PATCH_COLUMNS(simd_width_);
-  const int rows = simd_width_ / columns;
-  coarse_.run2d((view.camera.width + columns - 1) / columns, (view.camera.height + rows - 1) / rows,
-                map.offsets(), map.voxels(), nearest, farthest, coarse, toArgs(view.camera),
-                toArgs(view.T_W_D), gridArgs(map));
-}
-
-void ModelViewRenderer::Kernels::raycastFine(BlockSparseMap& map, const DeviceBuffer& coarse,
-                                             ModelView& view) {
-  fine_.run2d(vectorsAcross(view.camera, simd_width_), view.camera.height, map.offsets(), map.voxels(),
-              coarse, view.depth, view.normals, static_cast<int>(planeElements(view.camera)),
-              toArgs(view.camera), toArgs(view.T_W_D), gridArgs(map));
+void ModelViewRenderer::Kernels::raycast(BlockSparseMap& map, const DeviceBuffer& nearest,
+                                         const DeviceBuffer& occupied, ModelView& view,
+                                         const RayRangeArgs& range) {
+  const int columns = RAY_PATCHES(simd_width_) * RAY_STRIDE * RAY_PATCH_COLUMNS(simd_width_);
+  const int rows = RAY_STRIDE * simd_width_ / RAY_PATCH_COLUMNS(simd_width_);
+  raycast_.run2d((view.camera.width + columns - 1) / columns, (view.camera.height + rows - 1) / rows,
+                 map.offsets(), map.voxels(), nearest, occupied, view.depth, view.normals,
+                 static_cast<int>(planeElements(view.camera)), toArgs(view.camera), toArgs(view.T_W_D),
+                 gridArgs(map), range);
 }
 
 void ModelViewRenderer::Kernels::shadeView(const ModelView& view, DeviceBuffer& picture) {

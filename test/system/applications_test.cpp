@@ -87,7 +87,7 @@ TEST_F(Applications, report_has_the_times_of_every_stage) {
   const Json report = readReport(out());
   expectStatistics(report["frame_ms"], "frame");
   for (const std::string stage : {"recording/read", "preprocessing", "icp_tracking", "tsdf_fusion/integrate",
-                                  "model_view/coarse", "surface_mesh"}) {
+                                  "model_view/raycast", "surface_mesh"}) {
     ASSERT_TRUE(report["stage_ms"].contains(stage)) << stage;
     expectStatistics(report["stage_ms"][stage], stage);
   }

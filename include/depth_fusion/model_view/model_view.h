@@ -43,7 +43,7 @@ class ModelViewRenderer {
   ComputeContext& compute_;
   BlockSparseMap& map_;
   ResultPool<ModelView> views_;
-  DeviceBuffer nearest_, farthest_, coarse_;
+  DeviceBuffer nearest_, occupied_;  // ranges of the rays
   DeviceBuffer picture_;  // allocated for the first one
   std::unique_ptr<Kernels> kernels_;
 };

@@ -1,0 +1,77 @@
+// Trilinear interpolation of the distance. Coordinates are voxels from the first voxel of the window.
+#include "model_view/window.h"
+
+// Along one axis, of the two voxels around a coordinate: the first one's place in its block, the second's, and both their
+// blocks' in the window.
+typedef struct {
+  vint in_block[2], block[2];
+  vint crosses;  // whether the second voxel lies in another block
+  vint inside;   // whether both blocks are in the window
+} AxisNeighbours;
+
+inline AxisNeighbours axis_neighbours(vint voxel, int axis, const GridArgs grid) {
+  const vint block = voxel >> BLOCK_SIZE_LOG2, next_block = (voxel + 1) >> BLOCK_SIZE_LOG2;
+  const int n = grid.blocks_per_axis;
+  AxisNeighbours result;
+  result.in_block[0] = voxel & (BLOCK_SIZE - 1);
+  result.in_block[1] = (voxel + 1) & (BLOCK_SIZE - 1);
+  result.block[0] = wrap(block, grid.wrapped_origin[axis], n);
+  result.block[1] = wrap(next_block, grid.wrapped_origin[axis], n);
+  result.crosses = block != next_block;
+  result.inside = in_window(block, n) & in_window(next_block, n);
+  return result;
+}
+
+// Trilinear interpolation of the distance at p, in steps of the distance byte, and its gradient in steps a voxel.
+// known: 0 where one of the eight voxels is chi.
+typedef struct {
+  vfloat value, gradient_x, gradient_y, gradient_z;
+  vint known;
+} Sample;
+
+inline Sample interpolate(vfloat px, vfloat py, vfloat pz, vint active, __global const int *offsets,
+                          __global const char *voxels, const GridArgs grid) {
+  const vint vx = TO_VINT(px), vy = TO_VINT(py), vz = TO_VINT(pz);
+  const AxisNeighbours nx = axis_neighbours(vx, 0, grid);
+  const AxisNeighbours ny = axis_neighbours(vy, 1, grid);
+  const AxisNeighbours nz = axis_neighbours(vz, 2, grid);
+  const int n = grid.blocks_per_axis;
+  const vint inside = active & nx.inside & ny.inside & nz.inside;
+  const bool any_x = ANY(inside & nx.crosses), any_y = ANY(inside & ny.crosses), any_z = ANY(inside & nz.crosses);
+  Sample sample;
+  sample.known = inside;
+  vfloat corner[8];
+  vint slots[4], next_slots[4];
+  for (int i = 0; i < 4; ++i) {
+    const int cy = i & 1, cz = i >> 1;
+    const vint row = n * (ny.block[cy] + n * nz.block[cz]);
+    if (i == 0 || (cy && any_y) || (cz && any_z)) {
+      slots[i] = select((vint)(-1), GATHER(vint, offsets, select((vint)(0), row + nx.block[0], inside)), inside);
+      next_slots[i] = slots[i];
+      if (any_x) next_slots[i] = select((vint)(-1), GATHER(vint, offsets, select((vint)(0), row + nx.block[1], inside)), inside);
+    } else {
+      slots[i] = slots[0];
+      next_slots[i] = next_slots[0];
+    }
+    const vint row_in_block = (ny.in_block[cy] << BLOCK_SIZE_LOG2) + (nz.in_block[cz] << (2 * BLOCK_SIZE_LOG2));
+    const vint word = GATHER_FOUR_BYTES(voxels, max(slots[i], (vint)(0)) * (2 * BLOCK_VOXELS) + row_in_block + nx.in_block[0]);
+    const vint first = word << 24 >> 24;
+    vint second = word << 16 >> 24;
+    if (any_x) second = select(second, GATHER_BYTES(voxels, max(next_slots[i], (vint)(0)) * (2 * BLOCK_VOXELS) + row_in_block), nx.crosses);
+    sample.known &= (slots[i] >= 0) & (next_slots[i] >= 0) & (first != TSDF_CHI) & (second != TSDF_CHI);
+    corner[2 * i] = TO_VFLOAT(first);
+    corner[2 * i + 1] = TO_VFLOAT(second);
+  }
+  const vfloat x = px - TO_VFLOAT(vx), y = py - TO_VFLOAT(vy), z = pz - TO_VFLOAT(vz);
+  const vfloat x00 = corner[1] - corner[0], x10 = corner[3] - corner[2];
+  const vfloat x01 = corner[5] - corner[4], x11 = corner[7] - corner[6];
+  const vfloat v00 = corner[0] + x * x00, v10 = corner[2] + x * x10;
+  const vfloat v01 = corner[4] + x * x01, v11 = corner[6] + x * x11;
+  const vfloat v0 = v00 + y * (v10 - v00), v1 = v01 + y * (v11 - v01);
+  const vfloat gx0 = x00 + y * (x10 - x00), gx1 = x01 + y * (x11 - x01);
+  sample.value = v0 + z * (v1 - v0);
+  sample.gradient_x = gx0 + z * (gx1 - gx0);
+  sample.gradient_y = (v10 - v00) + z * ((v11 - v01) - (v10 - v00));
+  sample.gradient_z = v1 - v0;
+  return sample;
+}
