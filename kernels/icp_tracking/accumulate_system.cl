@@ -1,5 +1,6 @@
 // One ICP iteration: matching, rejection and the first reduction of the point-to-plane system (the paper's section
-// "Registration"). A work-group takes one row of the source; its sums go to partial_sums[row * ICP_SUMS + i].
+// "Registration"). A work-group takes one of the source's rows, every row_step-th; its sums go to
+// partial_sums[group * ICP_SUMS + i].
 //   source_*  depth and normals of the current frame, camera `source`
 //   model_*   depth and normals of the model view, camera `model`
 // Residual r = n . (T p - q); Jacobian with respect to the twist (rotation, translation) applied on the left of T:
@@ -13,7 +14,8 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
     __global const float *source_depth, __global const float *source_normals, __global const float *model_depth,
     __global const float *model_normals, __global float *partial_sums, CameraArgs source, CameraArgs model,
     TransformArgs T_M_D, SensorArgs sensor, MatchingArgs args) {
-  const int row = get_group_id(0);
+  const int group = get_group_id(0);
+  const int row = group * args.row_step;
   const int item = get_local_id(0);
   vfloat sums[ICP_SUMS];
   for (int i = 0; i < ICP_SUMS; ++i) sums[i] = 0.0f;
@@ -70,7 +72,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
   }
 
 #if GROUP_SIZE == 1
-  for (int i = 0; i < ICP_SUMS; ++i) partial_sums[row * ICP_SUMS + i] = SUM_LANES(sums[i]);
+  for (int i = 0; i < ICP_SUMS; ++i) partial_sums[group * ICP_SUMS + i] = SUM_LANES(sums[i]);
 #else
   __local float shared_sums[GROUP_SIZE];
   for (int i = 0; i < ICP_SUMS; ++i) {
@@ -80,7 +82,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
       if (item < half_size) shared_sums[item] += shared_sums[item + half_size];
       barrier(CLK_LOCAL_MEM_FENCE);
     }
-    if (item == 0) partial_sums[row * ICP_SUMS + i] = shared_sums[0];
+    if (item == 0) partial_sums[group * ICP_SUMS + i] = shared_sums[0];
     barrier(CLK_LOCAL_MEM_FENCE);
   }
 #endif

@@ -1,5 +1,5 @@
 // Depth images to clean depth in metres, pyramid and normals. Depth 0 = none. A work-item takes SIMD_WIDTH pixels of a
-// row (depth_to_metres_*, filter_bilateral, compute_normals), one pixel (halve_depth) or one tile (max_tiles).
+// row, or one tile (max_tiles).
 #include "shared/image.h"
 
 inline vfloat within_range(vfloat depth_m, vint x, const CameraArgs camera, const RangeArgs range) {
@@ -51,28 +51,30 @@ __kernel void filter_bilateral(__global const float *depth, __global float *filt
   VSTORE(select((vfloat)(0.0f), sum / weights, centre > 0.0f), filtered + pixel_index(x, y, camera));
 }
 
-// A pixel of the half size image: the mean of those of its 2x2 pixels that lie near the closest one.
+// Pixels of the half size image: the mean of those of a pixel's 2x2 that lie near the closest one.
 __kernel void halve_depth(__global const float *depth, __global float *half_depth, CameraArgs camera,
                           CameraArgs half_camera, SensorArgs sensor, float cutoff_sigmas) {
-  const int x = get_global_id(0);
+  const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
   if (x >= half_camera.width) return;
-  float closest = MAXFLOAT;
-  for (int i = 0; i < 4; ++i) {
-    const float d = depth[pixel_index(2 * x + (i & 1), 2 * y + (i >> 1), camera)];
-    if (d > 0.0f) closest = min(closest, d);
+  vfloat four[4];
+  for (int i = 0; i < 2; ++i) {
+    __global const float *row = depth + pixel_index(2 * x, 2 * y + i, camera);
+    const vfloat first = VLOAD(row), second = VLOAD(row + SIMD_WIDTH);
+    four[2 * i] = EVEN_LANES(first, second);
+    four[2 * i + 1] = ODD_LANES(first, second);
   }
-  const float limit = closest + cutoff_sigmas * AXIAL_SIGMA_M(sensor, closest);
-  float sum = 0.0f;
-  int count = 0;
+  vfloat closest = MAXFLOAT;
+  for (int i = 0; i < 4; ++i) closest = select(closest, min(closest, four[i]), four[i] > 0.0f);
+  const vfloat limit = closest + cutoff_sigmas * AXIAL_SIGMA_M(sensor, closest);
+  vfloat sum = 0.0f, count = 0.0f;
   for (int i = 0; i < 4; ++i) {
-    const float d = depth[pixel_index(2 * x + (i & 1), 2 * y + (i >> 1), camera)];
-    if (d > 0.0f && d <= limit) {
-      sum += d;
-      ++count;
-    }
+    const vint counts = (four[i] > 0.0f) & (four[i] <= limit);
+    sum += select((vfloat)(0.0f), four[i], counts);
+    count += select((vfloat)(0.0f), (vfloat)(1.0f), counts);
   }
-  half_depth[pixel_index(x, y, half_camera)] = count > 0 ? sum / count : 0.0f;
+  const vint some = (count > 0.0f) & (x + LANE_INDICES < half_camera.width);
+  VSTORE(select((vfloat)(0.0f), sum / count, some), half_depth + pixel_index(x, y, half_camera));
 }
 
 // Unit normals towards the camera from a plane fitted to the depth's 3x3 neighbours NORMAL_STEP pixels apart; 0 where a

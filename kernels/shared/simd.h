@@ -39,6 +39,8 @@ typedef uchar vuchar;
 #define GATHER_FOUR_BYTES(pointer, i) as_int(vload4(0, (pointer) + (i)))
 #define SUM_LANES(v) (v)
 #define LEAST(v) (v)
+#define EVEN_LANES(a, b) (a)
+#define ODD_LANES(a, b) (b)
 #else
 typedef SIMD_JOIN(float, SIMD_WIDTH) vfloat;
 typedef SIMD_JOIN(int, SIMD_WIDTH) vint;
@@ -116,4 +118,7 @@ typedef struct __attribute__((packed)) {
 #define GATHER_FOUR_BYTES(pointer, i) GATHER_FOUR_BYTES_(pointer, i)
 #define SUM_LANES(v) sum_lanes(v)
 #define LEAST(v) least_lane(v)
+// Every other lane of the two vectors one after the other.
+#define EVEN_LANES(a, b) ((vfloat)((a).even, (b).even))
+#define ODD_LANES(a, b) ((vfloat)((a).odd, (b).odd))
 #endif

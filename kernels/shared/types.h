@@ -104,6 +104,7 @@ typedef struct {
 // Where and how densely block selection samples the depth image.
 typedef struct {
   int stride_px;
+  float dense_from_m;  // nearer, every other sample in each axis does
   int band_samples;  // points along the ray from -truncation to +truncation, both included
   int capacity;      // of the list of requests
 } SelectionArgs;
@@ -155,6 +156,7 @@ typedef struct {
   float min_normal_cosine;
   float huber_sigmas;  // residual, in standard deviations of the sensor, from which a match's weight falls
   int source_plane, model_plane;  // elements from one component of the normals to the next
+  int row_step;                   // rows of the source from one that is matched to the next
 } MatchingArgs;
 
 // A block of a batch of the surface mesh. Only the first blocks of a batch, the core, emit; the others lend them their

@@ -38,6 +38,7 @@
   MEMBER(RayRangeArgs, bins_per_m)           \
   STRUCT(SelectionArgs)                      \
   MEMBER(SelectionArgs, stride_px)           \
+  MEMBER(SelectionArgs, dense_from_m)        \
   MEMBER(SelectionArgs, band_samples)        \
   MEMBER(SelectionArgs, capacity)            \
   STRUCT(SensorArgs)                         \
@@ -70,6 +71,7 @@
   MEMBER(MatchingArgs, huber_sigmas)         \
   MEMBER(MatchingArgs, source_plane)         \
   MEMBER(MatchingArgs, model_plane)          \
+  MEMBER(MatchingArgs, row_step)             \
   STRUCT(MeshBlockArgs)                      \
   MEMBER(MeshBlockArgs, index)               \
   MEMBER(MeshBlockArgs, first_vertex)        \

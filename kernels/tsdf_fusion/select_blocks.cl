@@ -16,15 +16,19 @@ __kernel void request_blocks(__global const float *depth, __global int *offsets,
   if (x >= camera.width || y >= camera.height) return;
   const float z = depth[pixel_index(x, y, camera)];
   if (!(z > 0.0f)) return;
+  if (z < args.dense_from_m && ((get_global_id(0) | get_global_id(1)) & 1)) return;
   const float3 ray_D = (float3)((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0f);
   const float3 ray_W = rotate_point(T_W_D, ray_D);
   const float3 origin_W = (float3)(T_W_D.translation[0], T_W_D.translation[1], T_W_D.translation[2]);
   const float half_band = grid.truncation_m / length(ray_D);
   const float per_block = 1.0f / (grid.voxel_size_m * BLOCK_SIZE);
   if (block_address(convert_int3(floor((origin_W + z * ray_W) * per_block)), grid) < 0) atomic_inc(points_outside);
+  int3 last_block = INT_MAX;
   for (int i = 0; i < args.band_samples; ++i) {
     const float t = z - half_band + 2.0f * half_band * i / (args.band_samples - 1);
     const int3 block = convert_int3(floor((origin_W + t * ray_W) * per_block));
+    if (all(block == last_block)) continue;
+    last_block = block;
     const int address = block_address(block, grid);
     if (address < 0 || offsets[address] != BLOCK_EMPTY) continue;
     if (atomic_cmpxchg(offsets + address, BLOCK_EMPTY, BLOCK_REQUESTED) != BLOCK_EMPTY) continue;

@@ -128,6 +128,7 @@ ParameterTable IcpTrackingParameters::table() {
       {"coarse_iterations", &coarse_iterations, 0, 100, "most iterations at a quarter of the size"},
       {"middle_iterations", &middle_iterations, 0, 100, "most iterations at half the size"},
       {"fine_iterations", &fine_iterations, 1, 100, "most iterations at full size"},
+      {"fine_row_step", &fine_row_step, 1, 16, "rows from one that is matched to the next, at full size"},
       {"coarse_distance_m", &coarse_distance_m, 1e-4, 10.0, "largest distance of a match at a quarter of the size"},
       {"fine_distance_m", &fine_distance_m, 1e-4, 10.0, "largest distance of a match at full size"},
       {"coarse_normal_angle_rad", &coarse_normal_angle_rad, 0.01, 1.5707,
@@ -168,7 +169,7 @@ MatchGates IcpTracker::gatesAt(int level) const {
   const auto between = [&](float fine, float coarse) { return fine * std::pow(coarse / fine, coarseness); };
   return {between(parameters_.fine_distance_m, parameters_.coarse_distance_m),
           std::cos(between(parameters_.fine_normal_angle_rad, parameters_.coarse_normal_angle_rad)),
-          parameters_.huber_sigmas};
+          parameters_.huber_sigmas, level == 0 ? parameters_.fine_row_step : 1};
 }
 
 bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView& view, const SystemPrior& prior,

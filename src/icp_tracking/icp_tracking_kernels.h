@@ -13,6 +13,7 @@ struct MatchGates {
   float max_distance_m;
   float min_normal_cosine;
   float huber_sigmas;
+  int row_step = 1;  // rows from one that is matched to the next
 };
 
 class IcpTracker::Kernels {

@@ -13,17 +13,19 @@ ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const Pi
   parameters_.map = map_.parameters();
 }
 
-FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame) {
+FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const RgbdFrame* next) {
   const StageTimers::Scope timer(timers_, "frame");
   FrameResult result;
-  const TextureOdometryResult motion = textureMotion(frame);
-  result.tracking = tracker_.track(frame, motion, odometry_.previous(), view_, timers_);
+  const TexturedFrame textured = next_.valid() ? next_.get() : findMotion(frame);
+  if (next != nullptr) next_ = std::async(std::launch::async, [this, after = *next] { return findMotion(after); });
+  if (parameters_.texture_odometry.enabled) timers_.record("texture_odometry", textured.milliseconds);
+  result.tracking = tracker_.track(frame, textured.motion, textured.features, view_, timers_);
   if (result.tracking.status != TrackingStatus::kLost) fuse(frame, result);
   if (result.tracking.status == TrackingStatus::kLost) {
     tracker_.reject();
     return result;
   }
-  tracker_.accept(frame, odometry_.previous(), result.tracking.T_W_D);
+  tracker_.accept(frame, textured.features, result.tracking.T_W_D);
   view_ = &mapper_.render(result.tracking.T_W_D, timers_);
   return result;
 }
@@ -38,10 +40,17 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   return result;
 }
 
-TextureOdometryResult ReconstructionPipeline::textureMotion(const RgbdFrame& frame) {
-  if (!parameters_.texture_odometry.enabled) return {};
-  const StageTimers::Scope timer(timers_, "texture_odometry");
-  return odometry_.process(frame);
+ReconstructionPipeline::TexturedFrame ReconstructionPipeline::findMotion(const RgbdFrame& frame) {
+  TexturedFrame textured;
+  if (!parameters_.texture_odometry.enabled) return textured;
+  StageTimers timers;
+  {
+    const StageTimers::Scope timer(timers, "texture_odometry");
+    textured.motion = odometry_.process(frame);
+    textured.features = odometry_.previous();
+  }
+  textured.milliseconds = timers.samplesMs().begin()->second.front();
+  return textured;
 }
 
 void ReconstructionPipeline::fuse(const RgbdFrame& frame, FrameResult& result) {

@@ -39,7 +39,7 @@ void DepthPreprocessingKernels::filterBilateral(const DeviceBuffer& depth, Devic
 }
 
 void DepthPreprocessingKernels::halveDepth(const DepthLevel& level, DepthLevel& half, float cutoff_sigmas) {
-  halve_.run2d(half.camera.width, half.camera.height, level.depth, half.depth, toArgs(level.camera),
+  halve_.run2d(vectorsAcross(half.camera, simd_width_), half.camera.height, level.depth, half.depth, toArgs(level.camera),
                toArgs(half.camera), toArgs(level.sensor), cutoff_sigmas);
 }
 

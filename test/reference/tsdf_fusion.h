@@ -39,6 +39,7 @@ inline std::set<BlockKey> blocksInBands(const View& view, const MapParameters& m
     for (int x = args.stride_px / 2; x < view.camera.width; x += args.stride_px) {
       const double z = view.depth.at<float>(y, x);
       if (z <= 0.0) continue;
+      if (z < args.dense_from_m && (x / args.stride_px % 2 == 1 || y / args.stride_px % 2 == 1)) continue;
       const Eigen::Vector3d ray_D = view.rayThrough(x, y);
       for (int i = 0; i < args.band_samples; ++i) {
         const double beyond_m = map.truncation_m * (2.0 * i / (args.band_samples - 1) - 1.0);

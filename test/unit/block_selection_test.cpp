@@ -84,7 +84,7 @@ TEST_P(SelectionOfBlockSize, RequestsTheBlocksInTheTruncationBands) {
     for (const int stride : {1, 3}) {
       BlockSparseMap map(compute(), parameters);
       map.reset(centre);  // part of the surface lies outside of the window
-      const SelectionArgs args{stride, 4, BlockRequests::kCapacity};
+      const SelectionArgs args{stride, stride == 1 ? 0.0f : 2.0f, 4, BlockRequests::kCapacity};
       const View view = viewOf(bumpyDepth(2.0), somePose());
       int count = 0;
       const std::vector<BlockIndex> blocks = BlockRequests(map).of(view, args, count);
@@ -100,7 +100,7 @@ TEST(BlockSelection, RequestsOnlyWhatIsNotAllocated) {
   BlockSparseMap map(compute(), mapParameters());
   BlockRequests requests(map);
   const View view = viewOf(bumpyDepth(1.5), somePose());
-  const SelectionArgs args{1, 4, BlockRequests::kCapacity};
+  const SelectionArgs args{1, 0.0f, 4, BlockRequests::kCapacity};
   int count = 0;
   const std::vector<BlockIndex> blocks = requests.of(view, args, count);
   EXPECT_EQ(map.allocate(blocks), blocks.size());
@@ -111,10 +111,10 @@ TEST(BlockSelection, FullListIsEmptiedAndFilledAgain) {
   const View view = viewOf(bumpyDepth(1.5), somePose());
   BlockSparseMap whole(compute(), mapParameters());
   int count = 0;
-  const auto expected = keysOf(BlockRequests(whole).of(view, {1, 4, BlockRequests::kCapacity}, count));
+  const auto expected = keysOf(BlockRequests(whole).of(view, {1, 0.0f, 4, BlockRequests::kCapacity}, count));
   BlockSparseMap map(compute(), mapParameters());
   BlockRequests requests(map);
-  const SelectionArgs short_list{1, 4, 17};
+  const SelectionArgs short_list{1, 0.0f, 4, 17};
   size_t turns = 0;
   for (bool full = true; full; ++turns) {
     const std::vector<BlockIndex> blocks = requests.of(view, short_list, count);

@@ -16,6 +16,7 @@ struct IcpTrackingParameters {
   int coarse_iterations = 6;
   int middle_iterations = 5;
   int fine_iterations = 5;
+  int fine_row_step = 2;
   float coarse_distance_m = 0.1f;
   float fine_distance_m = 0.04f;
   float coarse_normal_angle_rad = 0.8f;

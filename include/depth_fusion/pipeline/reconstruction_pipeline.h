@@ -1,6 +1,8 @@
 // One frame's way through all the stages.
 #pragma once
 
+#include <future>
+
 #include "depth_fusion/pipeline/frame_tracker.h"
 #include "depth_fusion/pipeline/mapper.h"
 
@@ -19,8 +21,9 @@ class ReconstructionPipeline {
   ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
                          const CameraIntrinsics& camera);
 
-  // A lost frame changes nothing in the map.
-  FrameResult processFrame(const RgbdFrame& frame);
+  // A lost frame changes nothing in the map. `next` is the frame that the next call is for, if it is there already: its
+  // texture odometry runs on a thread of its own meanwhile.
+  FrameResult processFrame(const RgbdFrame& frame, const RgbdFrame* next = nullptr);
 
   // The same with a pose from elsewhere in place of tracking; lost only if there is no depth.
   FrameResult processFrame(const RgbdFrame& frame, const Pose& T_W_D);
@@ -31,7 +34,14 @@ class ReconstructionPipeline {
   size_t keyframeCount() const { return tracker_.keyframeCount(); }
 
  private:
-  TextureOdometryResult textureMotion(const RgbdFrame& frame);
+  // A frame's features, and its motion against the frame before.
+  struct TexturedFrame {
+    FrameFeatures features;
+    TextureOdometryResult motion;
+    double milliseconds = 0.0;
+  };
+
+  TexturedFrame findMotion(const RgbdFrame& frame);
   // Lost if nothing could be fused.
   void fuse(const RgbdFrame& frame, FrameResult& result);
 
@@ -39,6 +49,7 @@ class ReconstructionPipeline {
   StageTimers timers_;
   BlockSparseMap map_;
   TextureOdometry odometry_;
+  std::future<TexturedFrame> next_;  // valid if the last call was given a next frame
   Mapper mapper_;
   FrameTracker tracker_;
   const ModelView* view_ = nullptr;  // of the last fused frame; none before the first

@@ -33,7 +33,7 @@ class Run {
   void fuseRecording();
   // The next frame, past those that cannot be read; nothing at the end.
   std::optional<RgbdFrame> nextFrame();
-  void fuseFrame(const RgbdFrame& frame);
+  void fuseFrame(const RgbdFrame& frame, const RgbdFrame* next);
   void noteResult(const RgbdFrame& frame, const FrameResult& result);
   void noteLoss(const std::string& reason);
   // An event of the frame, on a line of its own.
@@ -93,15 +93,16 @@ int Run::execute() {
 }
 
 void Run::fuseRecording() {
-  while (!interrupted && (options_.max_frames == 0 || counts_.read < options_.max_frames)) {
-    const std::optional<RgbdFrame> frame = nextFrame();
-    if (!frame) break;
-    if (!pipeline_) {
-      pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, frame->intrinsics);
-    }
+  std::optional<RgbdFrame> frame = nextFrame();
+  if (frame) pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, frame->intrinsics);
+  while (frame && !interrupted) {
+    ++counts_.read;
+    std::optional<RgbdFrame> next;
+    if (options_.max_frames == 0 || counts_.read < options_.max_frames) next = nextFrame();
     noteColor(*frame);
-    fuseFrame(*frame);
+    fuseFrame(*frame, next ? &*next : nullptr);
     showProgress(false);
+    frame = std::move(next);
   }
   if (pipeline_) showProgress(true);
   if (interrupted) complain("interrupted; the frames so far are written");
@@ -112,9 +113,7 @@ std::optional<RgbdFrame> Run::nextFrame() {
     try {
       StageTimers none;
       const StageTimers::Scope timer(pipeline_ ? pipeline_->timers() : none, "recording/read");
-      std::optional<RgbdFrame> frame = recording_->next();
-      if (frame) ++counts_.read;
-      return frame;
+      return recording_->next();
     } catch (const Error& error) {
       ++counts_.unreadable;
       complain(error.what());
@@ -123,9 +122,9 @@ std::optional<RgbdFrame> Run::nextFrame() {
   }
 }
 
-void Run::fuseFrame(const RgbdFrame& frame) {
+void Run::fuseFrame(const RgbdFrame& frame, const RgbdFrame* next) {
   if (options_.trajectory_file.empty()) {
-    noteResult(frame, pipeline_->processFrame(frame));
+    noteResult(frame, pipeline_->processFrame(frame, next));
     return;
   }
   const std::optional<Pose> T_W_D = poseAt(poses_, frame.stamp_s, kMaxPoseGap_s);
