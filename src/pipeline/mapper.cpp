@@ -9,7 +9,7 @@ Mapper::Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParam
     : parameters_(withinSensorRange(parameters)),
       map_(map),
       fusion_(compute, map, parameters.tsdf_fusion),
-      renderer_(compute, map, camera) {
+      renderer_(compute, map, camera, parameters.model_view) {
   if (map.parameters().color) color_fusion_ = std::make_unique<ColorFusion>(compute, map, parameters.color_fusion);
 }
 
