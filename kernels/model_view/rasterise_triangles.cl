@@ -1,8 +1,10 @@
 // Triangles to depth and normals: first every triangle's depth, the nearest of a pixel by an atomic, then the normals of
-// those that are the nearest. A work-item is a vertex (project_vertices), a triangle or, at the end, a pixel.
+// those that are the nearest. A work-item is a vertex (project_vertices), a triangle (all of them, then
+// those drawn) or, at the end, a pixel.
 //   vertices    position and normal in W, six floats
 //   projected   u, v in pixels, 1 / z, and 0; 1 / z is 0 for a vertex nearer than MIN_Z
 //   triangles   three vertices, counter-clockwise seen from free space
+//   drawn       numbers of the triangles that are, or were, the nearest of a pixel
 //   nearest     depth in metres a pixel; float bits as ints, whose order is the same for positive floats; FAR_BITS = none
 #include "shared/image.h"
 
@@ -66,28 +68,33 @@ inline float depth_at(const ScreenTriangle t, float3 weights) {
   return 1.0f / clamp(inverse_z, fmin(t.a.z, fmin(t.b.z, t.c.z)), fmax(t.a.z, fmax(t.b.z, t.c.z)));
 }
 
-__kernel void rasterise_depth(__global int *nearest, __global const float4 *projected, __global const uint *triangles,
-                              int count, CameraArgs camera, float min_range_m, float max_range_m) {
+// Lists the triangles that were the nearest at some time: many are smaller than a pixel and cover none.
+__kernel void rasterise_depth(__global int *nearest, __global int *drawn, __global int *drawn_count,
+                              __global const float4 *projected, __global const uint *triangles, int count,
+                              CameraArgs camera, float min_range_m, float max_range_m) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const ScreenTriangle t = screen_triangle(projected, triangles, i, camera);
+  bool is_drawn = false;
   for (int y = t.y0; y <= t.y1; ++y) {
     for (int x = t.x0; x <= t.x1; ++x) {
       const float3 weights = weights_at(t, x, y);
       const float z = depth_at(t, weights);
       if (!covers(t, weights) || !(z >= min_range_m && z <= max_range_m)) continue;
       __global int *pixel = nearest + pixel_index(x, y, camera);
-      if (as_int(z) < *pixel) atomic_min(pixel, as_int(z));
+      if (as_int(z) < *pixel) is_drawn |= as_int(z) < atomic_min(pixel, as_int(z));
     }
   }
+  if (is_drawn) drawn[atomic_inc(drawn_count)] = i;
 }
 
 // normals: three planes of `plane` elements, unit, in frame D
 __kernel void rasterise_normals(__global float *normals, int plane, __global const int *nearest,
-                                __global const float4 *projected, __global const float *vertices,
-                                __global const uint *triangles, int count, CameraArgs camera, TransformArgs T_D_W) {
-  const int i = get_global_id(0);
-  if (i >= count) return;
+                                __global const int *drawn, __global const float4 *projected,
+                                __global const float *vertices, __global const uint *triangles, int count,
+                                CameraArgs camera, TransformArgs T_D_W) {
+  if (get_global_id(0) >= count) return;
+  const int i = drawn[get_global_id(0)];
   const ScreenTriangle t = screen_triangle(projected, triangles, i, camera);
   for (int y = t.y0; y <= t.y1; ++y) {
     for (int x = t.x0; x <= t.x1; ++x) {

@@ -29,6 +29,7 @@ MeshRenderer::MeshRenderer(ComputeContext& compute, BlockSparseMap& map, const C
       members_(compute, kMembersPerCore * max_cores_ * sizeof(int), "the blocks of a batch"),
       firsts_(compute, mesh_.limits().blocks * sizeof(SurfaceMeshKernels::Totals), "the numbers of a batch"),
       projected_(compute, mesh_.limits().vertices * kProjectedBytes, "projected vertices"),
+      drawn_(compute, mesh_.limits().triangles * sizeof(int), "the triangles that are drawn"),
       nearest_(compute, planeElements(camera) * sizeof(int), "the depth of triangles") {
   places_.fill(kNoPlace, places_.bytes());
 }
@@ -109,8 +110,11 @@ void MeshRenderer::rasterise(const Batch& batch, ModelView& view, const Range& r
   const DeviceBuffer& triangles = mesh_.emitTriangles(static_cast<size_t>(batch.cores));
   const int count = static_cast<int>(batch.triangles);
   kernels_.projectVertices(projected_, vertices, static_cast<int>(batch.vertices), view);
-  kernels_.rasteriseDepth(nearest_, projected_, triangles, count, view, range.min_m, range.max_m);
-  kernels_.rasteriseNormals(view, nearest_, projected_, vertices, triangles, count);
+  count_.fill(0, sizeof(int));
+  kernels_.rasteriseDepth(nearest_, drawn_, count_, projected_, triangles, count, view, range.min_m,
+                          range.max_m);
+  kernels_.rasteriseNormals(view, nearest_, drawn_, projected_, vertices, triangles,
+                            count_.read<int>(1).front());
 }
 
 }  // namespace depth_fusion

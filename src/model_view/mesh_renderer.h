@@ -42,7 +42,7 @@ class MeshRenderer {
   SurfaceMeshKernels mesh_;
   MeshRendererKernels kernels_;
   size_t max_cores_;  // of a batch
-  DeviceBuffer listed_, count_, places_, members_, firsts_, projected_, nearest_;
+  DeviceBuffer listed_, count_, places_, members_, firsts_, projected_, drawn_, nearest_;
 };
 
 }  // namespace depth_fusion

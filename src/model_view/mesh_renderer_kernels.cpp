@@ -59,16 +59,19 @@ void MeshRendererKernels::projectVertices(DeviceBuffer& projected, const DeviceB
   project_.run(count, projected, vertices, count, toArgs(view.camera), fromWorld(view));
 }
 
-void MeshRendererKernels::rasteriseDepth(DeviceBuffer& nearest, const DeviceBuffer& projected,
+void MeshRendererKernels::rasteriseDepth(DeviceBuffer& nearest, DeviceBuffer& drawn,
+                                         DeviceBuffer& drawn_count, const DeviceBuffer& projected,
                                          const DeviceBuffer& triangles, int count, const ModelView& view,
                                          float min_range_m, float max_range_m) {
-  depth_.run(count, nearest, projected, triangles, count, toArgs(view.camera), min_range_m, max_range_m);
+  depth_.run(count, nearest, drawn, drawn_count, projected, triangles, count, toArgs(view.camera),
+             min_range_m, max_range_m);
 }
 
 void MeshRendererKernels::rasteriseNormals(ModelView& view, const DeviceBuffer& nearest,
-                                           const DeviceBuffer& projected, const DeviceBuffer& vertices,
-                                           const DeviceBuffer& triangles, int count) {
-  normals_.run(count, view.normals, planeOf(view), nearest, projected, vertices, triangles, count,
+                                           const DeviceBuffer& drawn, const DeviceBuffer& projected,
+                                           const DeviceBuffer& vertices, const DeviceBuffer& triangles,
+                                           int count) {
+  normals_.run(count, view.normals, planeOf(view), nearest, drawn, projected, vertices, triangles, count,
                toArgs(view.camera), fromWorld(view));
 }
 
