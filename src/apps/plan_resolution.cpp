@@ -29,6 +29,7 @@ struct Options {
   std::vector<std::string> parameter_files;
   std::vector<double> intrinsics;
   size_t limit_mib = 1536;
+  bool no_trial = false;
 };
 
 void addOptions(CLI::App& app, Options& options) {
@@ -57,6 +58,10 @@ void addOptions(CLI::App& app, Options& options) {
   app.add_option("--device", counting.device, "OpenCL device, as of reconstruct");
   app.add_option("--depth-topic", counting.recording.depth_topic, "of a bag, instead of the one found");
   app.add_option("--color-topic", counting.recording.color_topic, "of a bag, instead of the one found");
+  app.add_flag("--no-trial", options.no_trial,
+               "by counting alone, without fusing a recording with the best choice; takes noise that fusion "
+               "carves away "
+               "again for surface, which is much if voxels are small");
   app.add_flag("--color", counting.parameters.map.color, "with colour, six bytes a voxel in place of two");
 }
 
@@ -96,17 +101,27 @@ std::string mapYaml(const PlanRow& row) {
   return text;
 }
 
-void recommend(const ResolutionPlan& plan, const std::string& path) {
-  const std::optional<PlanRow> best = recommended(plan);
-  check(best.has_value(), "no choice fits into the limit; raise --limit or make --box smaller");
-  const double voxel_m = best->map.voxel_size_m;
-  if (voxel_m > 1.001 * plan.request.wished_voxel_m)
+// The best choice after a trial of each that was the best so far: one may turn out to be too large.
+const PlanRow& tryBest(ResolutionPlan& plan, BlockCounting& counting, bool trial) {
+  PlanRow* best = recommended(plan);
+  while (trial && best != nullptr && !best->tried) {
+    counting.tryOut(*best);
+    best->tried = true;
+    best = recommended(plan);
+  }
+  check(best != nullptr, "no choice fits into the limit; raise --limit or make --box smaller");
+  return *best;
+}
+
+void writeChoice(const PlanRow& best, const PlanRequest& request, const std::string& path) {
+  const double voxel_m = best.map.voxel_size_m;
+  if (voxel_m > 1.001 * request.wished_voxel_m)
     std::printf("the wished voxels of %.3g mm do not fit; the finest that do:\n",
-                1000.0 * plan.request.wished_voxel_m);
+                1000.0 * request.wished_voxel_m);
   std::printf("recommended: N %d, M %d, voxels of %.4g mm: %zu blocks, %zu bytes (%.1f MiB)\n",
-              best->map.blocks_per_axis, best->map.block_size, 1000.0 * voxel_m, best->blocks, best->bytes,
-              static_cast<double>(best->bytes) / (1 << 20));
-  writeText(path, mapYaml(*best));
+              best.map.blocks_per_axis, best.map.block_size, 1000.0 * voxel_m, best.blocks, best.bytes,
+              static_cast<double>(best.bytes) / (1 << 20));
+  writeText(path, mapYaml(best));
   std::printf("written: %s, for reconstruct --params\n", path.c_str());
 }
 
@@ -114,15 +129,17 @@ void plan(Options& options) {
   options.request.limit_bytes = options.limit_mib << 20;
   options.request.map = options.counting.parameters.map;
   ResolutionPlan plan = resolutionChoices(options.request);
+  BlockCounting counting(options.counting);
   std::error_code error;
   std::filesystem::create_directories(options.output, error);
   check(!error, "the output folder " + options.output + " cannot be made (" + error.message() + ")");
-  countBlocks(options.counting, plan);
+  counting.count(plan);
+  const PlanRow& best = tryBest(plan, counting, !options.no_trial);
   printTable(plan);
   writeText(options.output + "/memory.csv", table(plan));
   const std::string figure = options.output + "/memory.png";
   check(cv::imwrite(figure, plotMemory(plan)), "picture " + figure + " cannot be written");
-  recommend(plan, options.output + "/map.yaml");
+  writeChoice(best, options.request, options.output + "/map.yaml");
 }
 
 int run(int argc, char** argv) {

@@ -53,7 +53,7 @@ void forEachPoint(const Eigen::Vector3d corners[3], double spacing_m, const Visi
 size_t blocksAround(const TriangleMesh& mesh, const MapParameters& map, const Eigen::Vector3d& centre_W) {
   MetBlocks met(map, centre_W);
   const double truncation_m = map.truncation_m > 0.0f ? map.truncation_m : 4.0 * map.voxel_size_m;
-  const double spacing_m = 0.125 * map.voxel_size_m * map.block_size;
+  const double spacing_m = map.voxel_size_m * std::max(1.0, map.block_size / 8.0);
   const int steps = static_cast<int>(std::ceil(2.0 * truncation_m / spacing_m));
   for (const MeshTriangle& triangle : mesh.triangles) {
     Eigen::Vector3d corners[3];

@@ -79,11 +79,11 @@ bool fits(const PlanRow& row, const PlanRequest& request) {
   return row.counted && row.bytes <= request.limit_bytes && poolMebibytes(row) <= kMaxPool_MiB;
 }
 
-std::optional<PlanRow> recommended(const ResolutionPlan& plan) {
-  std::optional<PlanRow> best;
-  for (const PlanRow& row : plan.rows) {
+PlanRow* recommended(ResolutionPlan& plan) {
+  PlanRow* best = nullptr;
+  for (PlanRow& row : plan.rows) {
     if (!fits(row, plan.request)) continue;
-    if (!best || isBetter(row, *best, static_cast<float>(plan.request.wished_voxel_m))) best = row;
+    if (best == nullptr || isBetter(row, *best, static_cast<float>(plan.request.wished_voxel_m))) best = &row;
   }
   return best;
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "depth_fusion/map/block_sparse_map.h"
@@ -20,6 +19,7 @@ struct PlanRequest {
 struct PlanRow {
   MapParameters map;
   bool counted = false;  // else the offsets alone are over the limit, and `bytes` is theirs
+  bool tried = false;    // the blocks are those that fusion had in use at the end
   size_t blocks = 0;
   size_t bytes = 0;
 };
@@ -39,8 +39,8 @@ void setBlocks(PlanRow& row, size_t blocks);
 bool fits(const PlanRow& row, const PlanRequest& request);
 
 // Of the rows that fit, the one with the largest voxels that are not larger than wished, else with the
-// smallest; where several are of that size, the one that is fastest to map with. Nothing if none fits.
-std::optional<PlanRow> recommended(const ResolutionPlan& plan);
+// smallest; where several are of that size, the one that is fastest to map with. Null if none fits.
+PlanRow* recommended(ResolutionPlan& plan);
 
 // MiB of the pool that the row's blocks need, with a quarter to spare; see map/pool_mib.
 int poolMebibytes(const PlanRow& row);

@@ -22,54 +22,6 @@ bool endsWith(const std::string& text, const std::string& end) {
 
 size_t offsetBytes(const PlanRow& row) { return mapBytes(row.map, 0); }
 
-// The recording's frames, one after the other, as often as needed.
-class Frames {
- public:
-  explicit Frames(const CountingOptions& options)
-      : options_(options), recording_(openRecording(options.input, options.recording)) {}
-
-  std::string description() const { return recording_->description(); }
-
-  template <class Visit>
-  void forEach(const std::string& what, const Visit& visit) {
-    if (!recording_) recording_ = openRecording(options_.input, options_.recording);
-    const size_t all = recording_->frameCount();
-    const size_t count = options_.max_frames == 0 ? all : std::min(all, options_.max_frames);
-    for (size_t i = 0; i < count; ++i) {
-      const std::optional<RgbdFrame> frame = recording_->next();
-      if (!frame) break;
-      visit(*frame);
-      if ((i + 1) % 50 == 0 || i + 1 == count)
-        std::cout << what << ": frame " << i + 1 << "/" << count << std::endl;
-    }
-    recording_.reset();
-  }
-
- private:
-  const CountingOptions& options_;
-  std::unique_ptr<Recording> recording_;
-};
-
-Trajectory track(const CountingOptions& options, ComputeContext& compute, Frames& frames) {
-  std::unique_ptr<ReconstructionPipeline> pipeline;
-  Trajectory trajectory;
-  size_t lost = 0;
-  frames.forEach("tracking", [&](const RgbdFrame& frame) {
-    if (!pipeline)
-      pipeline = std::make_unique<ReconstructionPipeline>(compute, options.parameters, frame.intrinsics);
-    const TrackingResult result = pipeline->processFrame(frame).tracking;
-    if (result.status == TrackingStatus::kLost) {
-      ++lost;
-    } else {
-      trajectory.push_back({frame.stamp_s, result.T_W_D});
-    }
-  });
-  check(!trajectory.empty(),
-        "no frame of " + options.input + " could be tracked; give its poses with --trajectory");
-  if (lost > 0) std::cout << lost << " frames are lost and not counted" << std::endl;
-  return trajectory;
-}
-
 // The rows [first, the result) whose offsets fit into the limit together, one at least.
 size_t endOfPass(const ResolutionPlan& plan, size_t first) {
   size_t bytes = offsetBytes(plan.rows[first]), end = first + 1;
@@ -111,43 +63,139 @@ class SelectionPass {
   std::vector<std::unique_ptr<SelectedBlocks>> selected_;
 };
 
-void countRecording(const CountingOptions& options, ResolutionPlan& plan) {
-  ComputeContext compute(options.device);
-  Frames frames(options);
-  std::cout << "input: " << frames.description() << std::endl;
-  const Trajectory trajectory =
-      options.trajectory_file.empty() ? track(options, compute, frames) : readPoses(options.trajectory_file);
-  for (size_t first = 0; first < plan.rows.size();) {
-    const size_t end = endOfPass(plan, first);
-    if (offsetBytes(plan.rows[first]) <= plan.request.limit_bytes) {
-      SelectionPass pass(options, compute, plan.rows.data() + first, plan.rows.data() + end);
-      frames.forEach("counting, rows " + std::to_string(first + 1) + " to " + std::to_string(end),
-                     [&](const RgbdFrame& frame) {
-                       const std::optional<Pose> T_W_D = poseAt(trajectory, frame.stamp_s, kMaxPoseGap_s);
-                       if (T_W_D) pass.add(frame, *T_W_D);
-                     });
-      pass.finish();
-    }
-    first = end;
-  }
-}
-
-void countMesh(const CountingOptions& options, ResolutionPlan& plan) {
-  const TriangleMesh mesh = readPly(options.input);
-  check(!mesh.triangles.empty(), options.input + " has no triangles");
-  Eigen::AlignedBox3d box;
-  for (const MeshVertex& vertex : mesh.vertices) box.extend(vertex.position_W.cast<double>());
-  std::cout << "input: mesh of " << mesh.triangles.size() << " triangles" << std::endl;
-  for (PlanRow& row : plan.rows) {
-    if (offsetBytes(row) <= plan.request.limit_bytes)
-      setBlocks(row, blocksAround(mesh, row.map, box.center()));
-  }
-}
-
 }  // namespace
 
-void countBlocks(const CountingOptions& options, ResolutionPlan& plan) {
-  endsWith(options.input, ".ply") ? countMesh(options, plan) : countRecording(options, plan);
+struct BlockCounting::Surface {
+  virtual ~Surface() = default;
+  virtual void count(ResolutionPlan& plan) = 0;
+  virtual void tryOut(PlanRow& row) = 0;
+};
+
+struct BlockCounting::Mesh : BlockCounting::Surface {
+  explicit Mesh(const CountingOptions& options) : mesh(readPly(options.input)) {
+    check(!mesh.triangles.empty(), options.input + " has no triangles");
+    std::cout << "input: mesh of " << mesh.triangles.size() << " triangles" << std::endl;
+  }
+
+  void count(ResolutionPlan& plan) override {
+    Eigen::AlignedBox3d box;
+    for (const MeshVertex& vertex : mesh.vertices) box.extend(vertex.position_W.cast<double>());
+    for (PlanRow& row : plan.rows) {
+      if (offsetBytes(row) <= plan.request.limit_bytes)
+        setBlocks(row, blocksAround(mesh, row.map, box.center()));
+    }
+  }
+
+  void tryOut(PlanRow&) override {}
+
+  TriangleMesh mesh;
+};
+
+// A recording, read as often as needed.
+struct BlockCounting::Frames : BlockCounting::Surface {
+  explicit Frames(const CountingOptions& counting_options)
+      : options(counting_options),
+        compute(options.device),
+        recording(openRecording(options.input, options.recording)) {
+    std::cout << "input: " << recording->description() << std::endl;
+    if (!options.trajectory_file.empty()) trajectory = readPoses(options.trajectory_file);
+  }
+
+  void count(ResolutionPlan& plan) override {
+    if (trajectory.empty()) track();
+    for (size_t first = 0; first < plan.rows.size();) {
+      const size_t end = endOfPass(plan, first);
+      if (offsetBytes(plan.rows[first]) <= plan.request.limit_bytes) {
+        SelectionPass pass(options, compute, plan.rows.data() + first, plan.rows.data() + end);
+        forEachPosed("counting, rows " + std::to_string(first + 1) + " to " + std::to_string(end),
+                     [&](const RgbdFrame& frame, const Pose& T_W_D) { pass.add(frame, T_W_D); });
+        pass.finish();
+      }
+      first = end;
+    }
+  }
+
+  void tryOut(PlanRow& row) override {
+    PipelineParameters parameters = options.parameters;
+    parameters.map = row.map;
+    parameters.map.pool_mib = poolMebibytes(row);
+    std::unique_ptr<BlockSparseMap> map;
+    std::unique_ptr<Mapper> mapper;
+    std::unique_ptr<FrameTracker> tracker;
+    StageTimers timers;
+    forEachPosed(
+        "trying N " + std::to_string(row.map.blocks_per_axis) + ", M " + std::to_string(row.map.block_size),
+        [&](const RgbdFrame& frame, const Pose& T_W_D) {
+          if (!map) {
+            map = std::make_unique<BlockSparseMap>(compute, parameters.map);
+            mapper = std::make_unique<Mapper>(compute, *map, parameters, frame.intrinsics);
+            tracker = std::make_unique<FrameTracker>(compute, parameters, frame.intrinsics, nullptr);
+          }
+          tracker->follow(frame, T_W_D, timers);
+          mapper->fuse(frame, *tracker->depth(), T_W_D, timers);
+        });
+    setBlocks(row, map->usage().blocks);
+  }
+
+  void track() {
+    std::unique_ptr<ReconstructionPipeline> pipeline;
+    size_t lost = 0;
+    forEach("tracking", [&](const RgbdFrame& frame) {
+      if (!pipeline)
+        pipeline = std::make_unique<ReconstructionPipeline>(compute, options.parameters, frame.intrinsics);
+      const TrackingResult result = pipeline->processFrame(frame).tracking;
+      if (result.status == TrackingStatus::kLost) {
+        ++lost;
+      } else {
+        trajectory.push_back({frame.stamp_s, result.T_W_D});
+      }
+    });
+    check(!trajectory.empty(),
+          "no frame of " + options.input + " could be tracked; give its poses with --trajectory");
+    if (lost > 0) std::cout << lost << " frames are lost and not counted" << std::endl;
+  }
+
+  template <class Visit>
+  void forEach(const std::string& what, const Visit& visit) {
+    if (!recording) recording = openRecording(options.input, options.recording);
+    const size_t all = recording->frameCount();
+    const size_t count = options.max_frames == 0 ? all : std::min(all, options.max_frames);
+    for (size_t i = 0; i < count; ++i) {
+      const std::optional<RgbdFrame> frame = recording->next();
+      if (!frame) break;
+      visit(*frame);
+      if ((i + 1) % 50 == 0 || i + 1 == count)
+        std::cout << what << ": frame " << i + 1 << "/" << count << std::endl;
+    }
+    recording.reset();
+  }
+
+  template <class Visit>
+  void forEachPosed(const std::string& what, const Visit& visit) {
+    forEach(what, [&](const RgbdFrame& frame) {
+      const std::optional<Pose> T_W_D = poseAt(trajectory, frame.stamp_s, kMaxPoseGap_s);
+      if (T_W_D) visit(frame, *T_W_D);
+    });
+  }
+
+  const CountingOptions& options;
+  ComputeContext compute;
+  std::unique_ptr<Recording> recording;  // null: read to its end
+  Trajectory trajectory;
+};
+
+BlockCounting::BlockCounting(const CountingOptions& options) {
+  if (endsWith(options.input, ".ply")) {
+    surface_ = std::make_unique<Mesh>(options);
+  } else {
+    surface_ = std::make_unique<Frames>(options);
+  }
 }
+
+BlockCounting::~BlockCounting() = default;
+
+void BlockCounting::count(ResolutionPlan& plan) { surface_->count(plan); }
+
+void BlockCounting::tryOut(PlanRow& row) { surface_->tryOut(row); }
 
 }  // namespace depth_fusion

@@ -20,8 +20,26 @@ struct CountingOptions {
   PipelineParameters parameters;
 };
 
-// Sets the blocks of each row whose offsets alone are within the limit, and says on standard output what it
-// does. Throws Error if there is nothing to count.
-void countBlocks(const CountingOptions& options, ResolutionPlan& plan);
+// Says on standard output what it does.
+class BlockCounting {
+ public:
+  // Throws Error if the input cannot be read.
+  explicit BlockCounting(const CountingOptions& options);
+  ~BlockCounting();
+
+  // Sets the blocks of each row whose offsets alone are within the limit. Throws Error if there is nothing to
+  // count.
+  void count(ResolutionPlan& plan);
+  // Fuses the recording with the row's map, and sets the blocks that are then in use: block selection does
+  // not know what noise fusion carves away again. Does nothing for a mesh.
+  void tryOut(PlanRow& row);
+
+ private:
+  struct Surface;
+  struct Mesh;
+  struct Frames;
+
+  std::unique_ptr<Surface> surface_;
+};
 
 }  // namespace depth_fusion
