@@ -25,9 +25,9 @@ __kernel void project_vertices(__global float4 *projected, __global const float 
 
 typedef struct {
   float4 a, b, c;
-  float area;              // twice the area in pixels; positive if the front is seen
-  int x0, y0, x1, y1;      // pixels that the triangle may cover; none if x1 < x0
-  float tolerance;         // of the weights
+  float per_area;      // of twice the area in pixels
+  int x0, y0, x1, y1;  // pixels that the triangle may cover; none if x1 < x0 or y1 < y0
+  float tolerance;     // of the weights
 } ScreenTriangle;
 
 inline ScreenTriangle screen_triangle(__global const float4 *projected, __global const uint *triangles, int i,
@@ -38,15 +38,16 @@ inline ScreenTriangle screen_triangle(__global const float4 *projected, __global
   t.b = projected[corners.y];
   t.c = projected[corners.z];
   const float2 ab = t.b.xy - t.a.xy, ac = t.c.xy - t.a.xy;
-  t.area = ab.y * ac.x - ab.x * ac.y;
+  const float area = ab.y * ac.x - ab.x * ac.y;  // positive if the front is seen
+  t.per_area = 1.0f / area;
   const float2 low = fmin(t.a.xy, fmin(t.b.xy, t.c.xy)) - SEAM_PX, high = fmax(t.a.xy, fmax(t.b.xy, t.c.xy)) + SEAM_PX;
-  const int seen = t.area > 0.0f && t.a.z > 0.0f && t.b.z > 0.0f && t.c.z > 0.0f && high.x >= 0.0f && high.y >= 0.0f &&
+  const int seen = area > 0.0f && t.a.z > 0.0f && t.b.z > 0.0f && t.c.z > 0.0f && high.x >= 0.0f && high.y >= 0.0f &&
                    low.x <= camera.width - 1 && low.y <= camera.height - 1;
   t.x0 = seen ? max((int)ceil(low.x), 0) : 0;
   t.y0 = seen ? max((int)ceil(low.y), 0) : 0;
   t.x1 = seen ? (int)fmin(high.x, camera.width - 1.0f) : -1;
   t.y1 = seen ? (int)fmin(high.y, camera.height - 1.0f) : -1;
-  t.tolerance = SEAM_PX * (high.x - low.x + high.y - low.y) / t.area;
+  t.tolerance = SEAM_PX * (high.x - low.x + high.y - low.y) * t.per_area;
   return t;
 }
 
@@ -54,8 +55,8 @@ inline ScreenTriangle screen_triangle(__global const float4 *projected, __global
 inline float3 weights_at(const ScreenTriangle t, int x, int y) {
   const float2 p = (float2)(x, y) - t.a.xy;
   const float2 ab = t.b.xy - t.a.xy, ac = t.c.xy - t.a.xy;
-  const float of_b = (p.y * ac.x - p.x * ac.y) / t.area;
-  const float of_c = (ab.y * p.x - ab.x * p.y) / t.area;
+  const float of_b = (p.y * ac.x - p.x * ac.y) * t.per_area;
+  const float of_c = (ab.y * p.x - ab.x * p.y) * t.per_area;
   return (float3)(1.0f - of_b - of_c, of_b, of_c);
 }
 
