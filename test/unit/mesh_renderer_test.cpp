@@ -92,6 +92,8 @@ TEST(MeshRenderer, ViewsDoNotMix) {
   const Pose beside =
       lookingAt(kCentre + Eigen::Vector3d(0.3, 0.0, 0.0), Eigen::Vector3d(0.0, 0.0, -1.0), 0.0);
   renderer.render(beside, kMinRange_m, kMaxRange_m, timers);
+  const ModelView& nothing = renderer.render(away, kMinRange_m, kMaxRange_m, timers);
+  EXPECT_EQ(cv::countNonZero(readImage(nothing.normals, kCamera, 3).reshape(1)), 0);
   const ModelView& again = renderer.render(T_W_D, kMinRange_m, kMaxRange_m, timers);
   EXPECT_EQ(cv::norm(readImage(again.depth, kCamera, 1), first, cv::NORM_INF), 0.0);
 }

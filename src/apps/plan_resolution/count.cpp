@@ -161,13 +161,22 @@ struct BlockCounting::Frames : BlockCounting::Surface {
     const size_t all = recording->frameCount();
     const size_t count = options.max_frames == 0 ? all : std::min(all, options.max_frames);
     for (size_t i = 0; i < count; ++i) {
-      const std::optional<RgbdFrame> frame = recording->next();
-      if (!frame) break;
-      visit(*frame);
+      if (const std::optional<RgbdFrame> frame = nextFrame()) visit(*frame);
       if ((i + 1) % 50 == 0 || i + 1 == count)
         std::cout << what << ": frame " << i + 1 << "/" << count << std::endl;
     }
     recording.reset();
+  }
+
+  // Nothing for a frame that cannot be read, which is said the first time.
+  std::optional<RgbdFrame> nextFrame() {
+    try {
+      return recording->next();
+    } catch (const Error& error) {
+      if (!has_complained) std::cerr << "plan_resolution: " << error.what() << "; left out" << std::endl;
+      has_complained = true;
+      return std::nullopt;
+    }
   }
 
   template <class Visit>
@@ -182,6 +191,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
   ComputeContext compute;
   std::unique_ptr<Recording> recording;  // null: read to its end
   Trajectory trajectory;
+  bool has_complained = false;
 };
 
 BlockCounting::BlockCounting(const CountingOptions& options) {
