@@ -100,7 +100,7 @@ void run(const ResolutionOptions& options) {
 }  // namespace
 
 void addRenderersBenchmark(CLI::App& app, ResolutionOptions& options) {
-  options.voxels_per_axis = {256, 512, 1024, 2048, 3072, 4096, 5000};
+  options.voxels_per_axis = {128, 256, 512, 1024, 2048, 3072, 4096, 5000};
   options.frames = 30;
   CLI::App* command =
       app.add_subcommand("renderers", "ray casting and marching cubes by voxel resolution, in one box");
