@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "apps/benchmark/filters.h"
+#include "apps/benchmark/resolution.h"
 #include "apps/benchmark/tracking.h"
 
 int main(int argc, char** argv) {
@@ -11,6 +12,9 @@ int main(int argc, char** argv) {
   depth_fusion::addFiltersBenchmark(app);
   depth_fusion::TrackingBenchmark tracking;
   depth_fusion::addTrackingBenchmark(app, tracking);
+  depth_fusion::ResolutionOptions resolution, renderers;
+  depth_fusion::addResolutionBenchmark(app, resolution);
+  depth_fusion::addRenderersBenchmark(app, renderers);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "depth_fusion/common/error.h"
@@ -12,6 +13,7 @@ namespace {
 
 const cv::Rect kFrame(70, 50, 640, 360);
 const cv::Size kCanvas(740, 470);
+constexpr int kLegend_px = 170;
 const cv::Scalar kInk(50, 50, 50);
 const cv::Scalar kGrid(228, 228, 228);
 const cv::Scalar kColors[] = {{180, 120, 30}, {40, 120, 240}, {60, 160, 50}, {150, 60, 150}};
@@ -38,30 +40,62 @@ double niceStep(double extent) {
   return 10.0 * power;
 }
 
-cv::Point2d extentOf(const LinePlot& plot) {
-  cv::Point2d extent(0.0, 0.0);
+// From values to the part of the frame's width or height.
+struct Axis {
+  double low = 0.0, high = 0.0;  // logarithms, if so
+  bool logarithmic = false;
+
+  double fractionOf(double value) const {
+    return ((logarithmic ? std::log10(value) : value) - low) / (high - low);
+  }
+  // Where lines are drawn across.
+  std::vector<double> ticks() const {
+    std::vector<double> values;
+    if (!logarithmic) {
+      for (double value = low; value <= high; value += niceStep(high - low)) values.push_back(value);
+      return values;
+    }
+    for (int power = static_cast<int>(std::floor(low)); power <= high; ++power) {
+      for (const double factor : {1.0, 2.0, 5.0}) {
+        const double value = factor * std::pow(10.0, power);
+        if (fractionOf(value) >= 0.0 && fractionOf(value) <= 1.0) values.push_back(value);
+      }
+    }
+    return values;
+  }
+};
+
+Axis axisOf(const LinePlot& plot, double cv::Point2d::*coordinate) {
+  double least = std::numeric_limits<double>::max(), most = 0.0;
   for (const PlotLine& line : plot.lines) {
     for (const cv::Point2d& point : line.points) {
-      extent = {std::max(extent.x, 1.05 * point.x), std::max(extent.y, 1.05 * point.y)};
+      least = std::min(least, point.*coordinate);
+      most = std::max(most, point.*coordinate);
     }
   }
-  check(extent.x > 0.0 && extent.y > 0.0, "there is nothing to plot");
-  return extent;
+  check(most > 0.0, "there is nothing to plot");
+  if (!plot.logarithmic) return {0.0, 1.05 * most, false};
+  check(least > 0.0, "a logarithmic plot needs positive numbers");
+  return {std::log10(0.8 * least), std::log10(1.25 * most), true};
 }
 
-cv::Point pixelOf(const cv::Point2d& point, const cv::Point2d& extent) {
-  return {kFrame.x + static_cast<int>(point.x / extent.x * kFrame.width),
-          kFrame.br().y - static_cast<int>(point.y / extent.y * kFrame.height)};
-}
+struct Axes {
+  Axis x, y;
 
-void drawAxes(cv::Mat& canvas, const LinePlot& plot, const cv::Point2d& extent) {
-  for (double x = 0.0; x <= extent.x; x += niceStep(extent.x)) {
-    const int column = pixelOf({x, 0.0}, extent).x;
+  cv::Point pixelOf(const cv::Point2d& point) const {
+    return {kFrame.x + static_cast<int>(x.fractionOf(point.x) * kFrame.width),
+            kFrame.br().y - static_cast<int>(y.fractionOf(point.y) * kFrame.height)};
+  }
+};
+
+void drawAxes(cv::Mat& canvas, const LinePlot& plot, const Axes& axes) {
+  for (const double x : axes.x.ticks()) {
+    const int column = kFrame.x + static_cast<int>(axes.x.fractionOf(x) * kFrame.width);
     cv::line(canvas, {column, kFrame.y}, {column, kFrame.br().y}, kGrid);
     writeCentred(canvas, number(x), {column, kFrame.br().y + 16});
   }
-  for (double y = 0.0; y <= extent.y; y += niceStep(extent.y)) {
-    const int row = pixelOf({0.0, y}, extent).y;
+  for (const double y : axes.y.ticks()) {
+    const int row = kFrame.br().y - static_cast<int>(axes.y.fractionOf(y) * kFrame.height);
     cv::line(canvas, {kFrame.x, row}, {kFrame.br().x, row}, kGrid);
     writeCentred(canvas, number(y), {kFrame.x - 30, row});
   }
@@ -71,20 +105,33 @@ void drawAxes(cv::Mat& canvas, const LinePlot& plot, const cv::Point2d& extent) 
   writeCentred(canvas, plot.y_label, {kFrame.x + 60, kFrame.y - 12});
 }
 
+// The upper corner with fewer points of the lines.
+int legendColumn(const LinePlot& plot, const Axes& axes) {
+  int on_left = 0, on_right = 0;
+  for (const PlotLine& line : plot.lines) {
+    for (const cv::Point2d& point : line.points) {
+      if (axes.y.fractionOf(point.y) < 0.5) continue;
+      ++(axes.x.fractionOf(point.x) < 0.5 ? on_left : on_right);
+    }
+  }
+  return on_left < on_right ? kFrame.x + 20 : kFrame.br().x - kLegend_px;
+}
+
 }  // namespace
 
 cv::Mat draw(const LinePlot& plot) {
-  const cv::Point2d extent = extentOf(plot);
+  const Axes axes{axisOf(plot, &cv::Point2d::x), axisOf(plot, &cv::Point2d::y)};
   cv::Mat canvas(kCanvas, CV_8UC3, cv::Scalar::all(255));
-  drawAxes(canvas, plot, extent);
+  drawAxes(canvas, plot, axes);
+  const int legend_column = legendColumn(plot, axes);
   int legend_row = kFrame.y + 20;
   for (size_t i = 0; i < plot.lines.size(); ++i, legend_row += 20) {
     const auto& points = plot.lines[i].points;
     const cv::Scalar color = kColors[i % 4];
     for (size_t k = 1; k < points.size(); ++k) {
-      cv::line(canvas, pixelOf(points[k - 1], extent), pixelOf(points[k], extent), color, 2, cv::LINE_AA);
+      cv::line(canvas, axes.pixelOf(points[k - 1]), axes.pixelOf(points[k]), color, 2, cv::LINE_AA);
     }
-    const cv::Point legend(kFrame.br().x - 170, legend_row);
+    const cv::Point legend(legend_column, legend_row);
     cv::line(canvas, legend, legend + cv::Point(25, 0), color, 2, cv::LINE_AA);
     cv::putText(canvas, plot.lines[i].name, legend + cv::Point(32, 5), cv::FONT_HERSHEY_SIMPLEX, 0.45, kInk,
                 1, cv::LINE_AA);

@@ -59,6 +59,10 @@ ParameterTable MapParameters::table() {
        {"color", &color, 0, 1, "true: the map holds colour, where the recording has it"}});
 }
 
+size_t mapBytes(const MapParameters& map, size_t blocks) {
+  return blocks * (blockBytes(map) + blockColorBytes(map)) + 4 * cube(map.blocks_per_axis);
+}
+
 GridArgs gridArgs(const BlockSparseMap& map) {
   const MapParameters& parameters = map.parameters();
   GridArgs args{};
@@ -191,9 +195,8 @@ BlockSparseMap::Usage BlockSparseMap::usage() const {
   Usage usage;
   usage.blocks = capacity_ - free_slots_.size();
   usage.capacity = capacity_;
-  const size_t voxels = usage.blocks * cube(parameters_.block_size);
-  usage.color_bytes = parameters_.color ? kColorBytes * voxels : 0;
-  usage.bytes = 2 * voxels + usage.color_bytes + 4 * cube(parameters_.blocks_per_axis);
+  usage.color_bytes = usage.blocks * blockColorBytes(parameters_);
+  usage.bytes = mapBytes(parameters_, usage.blocks);
   usage.pool_bytes =
       offsets_.bytes() + voxels_.bytes() + colors_.bytes() + block_indices_.bytes() + block_states_.bytes();
   return usage;

@@ -4,6 +4,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/compute/device_image.h"
+#include "model_view/mesh_renderer.h"
 #include "model_view/model_view_kernels.h"
 #include "shared/types.h"
 
@@ -30,14 +31,26 @@ std::shared_ptr<ModelView> makeView(ComputeContext& compute, const CameraIntrins
 
 }  // namespace
 
-ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map,
-                                     const CameraIntrinsics& camera)
+ParameterTable ModelViewParameters::table() {
+  return atStartOnly({{"renderer",
+                       &renderer,
+                       0.0,
+                       0.0,
+                       "how the map is rendered: rays cast through it, or its triangles rasterised",
+                       {"ray_casting", "marching_cubes"}}});
+}
+
+ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera,
+                                     ModelViewParameters parameters)
     : compute_(compute),
       map_(map),
       views_([&compute, camera] { return makeView(compute, camera); }),
       nearest_(compute, rangeTiles(camera) * sizeof(float), "ray ranges"),
       occupied_(compute, rangeTiles(camera) * (DEPTH_BINS / 8), "ray ranges"),
-      kernels_(std::make_unique<Kernels>(compute, map.parameters())) {}
+      kernels_(std::make_unique<Kernels>(compute, map.parameters())) {
+  validate(parameters.table());
+  if (parameters.renderer == "marching_cubes") mesh_renderer_ = std::make_unique<MeshRenderer>(compute, map, camera);
+}
 
 ModelViewRenderer::~ModelViewRenderer() = default;
 
@@ -45,6 +58,10 @@ const ModelView& ModelViewRenderer::render(const Pose& T_W_D, float min_range_m,
                                            StageTimers& timers) {
   ModelView& view = *views_.next();
   view.T_W_D = T_W_D;
+  if (mesh_renderer_) {
+    mesh_renderer_->render(view, min_range_m, max_range_m, timers);
+    return view;
+  }
   const RayRangeArgs range = {min_range_m, max_range_m, DEPTH_BINS / (max_range_m - min_range_m)};
   {
     const StageTimers::Scope timer(timers, "model_view/ranges");

@@ -15,4 +15,10 @@ inline cv::Mat depthInRange(const RgbdFrame& frame, const PreprocessingParameter
   return mask;
 }
 
+// The window's middle lies ahead of the camera, at the mean depth of what it sees first.
+inline Eigen::Vector3d windowCentre(const RgbdFrame& frame, const PreprocessingParameters& parameters, const Pose& T_W_D) {
+  const double ahead_m = frame.depth_unit_m * cv::mean(frame.depth, depthInRange(frame, parameters))[0];
+  return T_W_D * Eigen::Vector3d(0.0, 0.0, ahead_m);
+}
+
 }  // namespace depth_fusion

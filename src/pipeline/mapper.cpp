@@ -3,22 +3,13 @@
 #include "pipeline/depth_in_range.h"
 
 namespace depth_fusion {
-namespace {
-
-// The window's middle lies ahead of the camera, at the mean depth of what it sees first.
-Eigen::Vector3d windowCentre(const RgbdFrame& frame, const PreprocessingParameters& parameters, const Pose& T_W_D) {
-  const double ahead_m = frame.depth_unit_m * cv::mean(frame.depth, depthInRange(frame, parameters))[0];
-  return T_W_D * Eigen::Vector3d(0.0, 0.0, ahead_m);
-}
-
-}  // namespace
 
 Mapper::Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParameters& parameters,
                const CameraIntrinsics& camera)
     : parameters_(withinSensorRange(parameters)),
       map_(map),
       fusion_(compute, map, parameters.tsdf_fusion),
-      renderer_(compute, map, camera) {
+      renderer_(compute, map, camera, parameters.model_view) {
   if (map.parameters().color) color_fusion_ = std::make_unique<ColorFusion>(compute, map, parameters.color_fusion);
 }
 

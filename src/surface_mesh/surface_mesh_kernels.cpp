@@ -69,12 +69,16 @@ size_t SurfaceMeshKernels::deviceBytes() const {
 }
 
 void SurfaceMeshKernels::classify(const std::vector<MeshBlockArgs>& blocks) {
-  const int count = static_cast<int>(blocks.size());
   block_args_.write(blocks);
-  gather_.run(blocks.size() * padded_size_, volume_, row_masks_, map_.voxels(), map_.offsets(), block_args_,
-              count, min_certainty_, gridArgs(map_));
-  classify_.run(blocks.size() * rows_, row_vertices_, row_triangles_, row_masks_, table_, count);
-  scan_.run(blocks.size(), row_vertices_, row_triangles_, totals_, count);
+  classify(blocks.size());
+}
+
+void SurfaceMeshKernels::classify(size_t count) {
+  const int blocks = static_cast<int>(count);
+  gather_.run(count * padded_size_, volume_, row_masks_, map_.voxels(), map_.offsets(), block_args_, blocks,
+              min_certainty_, gridArgs(map_));
+  classify_.run(count * rows_, row_vertices_, row_triangles_, row_masks_, table_, blocks);
+  scan_.run(count, row_vertices_, row_triangles_, totals_, blocks);
 }
 
 std::vector<SurfaceMeshKernels::Totals> SurfaceMeshKernels::totals(size_t count) const {
@@ -82,8 +86,7 @@ std::vector<SurfaceMeshKernels::Totals> SurfaceMeshKernels::totals(size_t count)
 }
 
 void SurfaceMeshKernels::emitVertices(const MeshBatch& batch, std::vector<MeshVertex>& vertices) {
-  emit_vertices_.run(batch.core_blocks * rows_, vertices_, volume_, row_vertices_, block_args_,
-                     static_cast<int>(batch.core_blocks), batch.first_vertex, map_.parameters().voxel_size_m);
+  emitVertices(batch.core_blocks, batch.first_vertex);
   vertices.resize(batch.vertices);
   vertices_.read(vertices.data(), vertices.size() * sizeof(MeshVertex));
 }
@@ -99,10 +102,21 @@ void SurfaceMeshKernels::colorVertices(const MeshBatch& batch, std::vector<MeshC
 }
 
 void SurfaceMeshKernels::emitTriangles(const MeshBatch& batch, std::vector<MeshTriangle>& triangles) {
-  emit_triangles_.run(batch.core_blocks * rows_, triangles_, row_masks_, row_vertices_, row_triangles_,
-                      table_, block_args_, static_cast<int>(batch.core_blocks));
+  emitTriangles(batch.core_blocks);
   triangles.resize(batch.triangles);
   triangles_.read(triangles.data(), triangles.size() * sizeof(MeshTriangle));
+}
+
+const DeviceBuffer& SurfaceMeshKernels::emitVertices(size_t count, uint32_t first_vertex) {
+  emit_vertices_.run(count * rows_, vertices_, volume_, row_vertices_, block_args_, static_cast<int>(count),
+                     first_vertex, map_.parameters().voxel_size_m);
+  return vertices_;
+}
+
+const DeviceBuffer& SurfaceMeshKernels::emitTriangles(size_t count) {
+  emit_triangles_.run(count * rows_, triangles_, row_masks_, row_vertices_, row_triangles_, table_,
+                      block_args_, static_cast<int>(count));
+  return triangles_;
 }
 
 }  // namespace depth_fusion

@@ -19,8 +19,10 @@ class SurfaceMeshKernels {
   const BatchLimits& limits() const { return limits_; }
   size_t deviceBytes() const;
 
-  // Gathers and classifies the blocks of a batch.
+  // Gathers and classifies the blocks of a batch; of a count: those that stand in blockArgs().
   void classify(const std::vector<MeshBlockArgs>& blocks);
+  void classify(size_t count);
+  DeviceBuffer& blockArgs() { return block_args_; }
   // Of the blocks classified last.
   std::vector<Totals> totals(size_t count) const;
   // Of the batch classified last; the vectors keep their memory from batch to batch.
@@ -28,6 +30,10 @@ class SurfaceMeshKernels {
   // Of the vertices emitted last; the map must have colour.
   void colorVertices(const MeshBatch& batch, std::vector<MeshColor>& colors);
   void emitTriangles(const MeshBatch& batch, std::vector<MeshTriangle>& triangles);
+
+  // The same on the device alone, of the first `count` blocks: six floats a vertex, three vertices a triangle.
+  const DeviceBuffer& emitVertices(size_t count, uint32_t first_vertex);
+  const DeviceBuffer& emitTriangles(size_t count);
 
  private:
   BlockSparseMap& map_;

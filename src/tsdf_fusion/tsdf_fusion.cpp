@@ -19,18 +19,6 @@ FusionParameters validated(FusionParameters parameters) {
   return parameters;
 }
 
-// Sampling points lie at most half a block apart across the rays, at a depth of 3 m, and along them.
-SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& camera) {
-  const float half_block_m = 0.5f * map.voxel_size_m * map.block_size;
-  SelectionArgs args{};
-  const float half_block_at_1m_px = half_block_m * static_cast<float>(camera.fx);
-  args.stride_px = std::clamp(static_cast<int>(half_block_at_1m_px / 3.0f), 1, 4);
-  args.dense_from_m = half_block_at_1m_px / (2.0f * args.stride_px);
-  args.band_samples = static_cast<int>(std::ceil(2.0f * map.truncation_m / half_block_m)) + 1;
-  args.capacity = kRequestCapacity;
-  return args;
-}
-
 // By the Kalman filter, a distance whose sigma is above half the truncation says nothing any more.
 int minCertainty(const FusionParameters& parameters, const MapParameters& map) {
   return parameters.rule == "kalman" ? std::max(certaintyOf(0.25f * map.truncation_m * map.truncation_m), 1)
@@ -43,6 +31,17 @@ int certaintyOf(float variance_m2) {
   int bits = 0;
   std::memcpy(&bits, &variance_m2, sizeof(bits));
   return std::clamp((VARIANCE_BITS_MAX - bits) / VARIANCE_BITS_STEP + 1, 0, CERTAINTY_MAX);
+}
+
+SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& camera) {
+  const float half_block_m = 0.5f * map.voxel_size_m * map.block_size;
+  const float half_block_at_1m_px = half_block_m * static_cast<float>(camera.fx);
+  SelectionArgs args{};
+  args.stride_px = std::clamp(static_cast<int>(half_block_at_1m_px / 3.0f), 1, 4);
+  args.dense_from_m = half_block_at_1m_px / (2.0f * args.stride_px);
+  args.band_samples = static_cast<int>(std::ceil(2.0f * map.truncation_m / half_block_m)) + 1;
+  args.capacity = kRequestCapacity;
+  return args;
 }
 
 FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,

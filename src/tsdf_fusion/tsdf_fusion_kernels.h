@@ -10,6 +10,9 @@ namespace depth_fusion {
 // The code of a variance in a voxel's second byte, 0 for one above the scale.
 int certaintyOf(float variance_m2);
 
+// Sampling points lie at most half a block apart across the rays, at a depth of 3 m, and along them.
+SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& camera);
+
 FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,
                       int frame_number);
 

@@ -15,9 +15,10 @@ struct PlotLine {
 struct LinePlot {
   std::string title, x_label, y_label;
   std::vector<PlotLine> lines;
+  bool logarithmic = false;  // both axes; all points are positive
 };
 
-// CV_8UC3 BGR; both axes begin at 0. Throws Error without points.
+// CV_8UC3 BGR; both axes begin at 0, logarithmic ones before the least point. Throws Error without points.
 cv::Mat draw(const LinePlot& plot);
 
 }  // namespace depth_fusion

@@ -22,6 +22,9 @@ struct MapParameters {
   ParameterTable table();
 };
 
+// 2 * blocks * M^3 + 4 * N^3, the paper's formula; 6 in place of 2 with colour.
+size_t mapBytes(const MapParameters& map, size_t blocks);
+
 // A window of N^3 blocks of M^3 voxels. Two device buffers, both allocated once: `offsets`, one int a block (the slot
 // of its voxels in the pool, -1 = empty), and the pool of voxels, two bytes each: M^3 signed distance bytes (-128 = chi)
 // followed by M^3 certainty bytes a slot. The host keeps the list of free slots. Block (i, j, k) covers the voxels
@@ -35,7 +38,7 @@ class BlockSparseMap {
   struct Usage {
     size_t blocks = 0;      // in use
     size_t capacity = 0;    // blocks that the pool holds
-    size_t bytes = 0;       // 2 * blocks * M^3 + 4 * N^3, the paper's formula; 6 in place of 2 with colour
+    size_t bytes = 0;       // as mapBytes() has it
     size_t color_bytes = 0;  // of `bytes`
     size_t pool_bytes = 0;  // device memory really allocated for the map
   };

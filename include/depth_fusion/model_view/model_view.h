@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "depth_fusion/common/parameters.h"
 #include "depth_fusion/common/stage_timers.h"
 #include "depth_fusion/compute/result_pool.h"
 #include "depth_fusion/geometry/pose.h"
@@ -19,14 +20,23 @@ struct ModelView {
   DeviceBuffer normals;  // three planes: unit normals towards free space in frame D, 0 = no surface
 };
 
+struct ModelViewParameters {
+  std::string renderer = "ray_casting";
+
+  ParameterTable table();
+};
+
+class MeshRenderer;
+
 class ModelViewRenderer {
  public:
   class Kernels;  // typed launches, private to the library and its tests
 
-  ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera);
+  ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera,
+                    ModelViewParameters parameters = {});
   ~ModelViewRenderer();
 
-  // Casts rays through the map between min_range_m and max_range_m. The result stays valid until the next call.
+  // The map between min_range_m and max_range_m, as the parameters say how. The result stays valid until the next call.
   const ModelView& render(const Pose& T_W_D, float min_range_m, float max_range_m, StageTimers& timers);
   // The last result, valid and unchanged for as long as it is held.
   std::shared_ptr<const ModelView> view() const { return views_.current(); }
@@ -46,6 +56,7 @@ class ModelViewRenderer {
   DeviceBuffer nearest_, occupied_;  // ranges of the rays
   DeviceBuffer picture_;  // allocated for the first one
   std::unique_ptr<Kernels> kernels_;
+  std::unique_ptr<MeshRenderer> mesh_renderer_;  // null for ray casting
 };
 
 }  // namespace depth_fusion

@@ -4,6 +4,7 @@
 #include "depth_fusion/color_fusion/color_fusion.h"
 #include "depth_fusion/icp_tracking/icp_tracker.h"
 #include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/model_view/model_view.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
 #include "depth_fusion/relocalisation/relocaliser.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
@@ -21,6 +22,7 @@ struct PipelineParameters {
   RelocalisationParameters relocalisation;
   FusionParameters tsdf_fusion;
   ColorFusionParameters color_fusion;
+  ModelViewParameters model_view;
   SurfaceMeshParameters surface_mesh;
 
   // The rows of all the stages, named "<stage>/<name>".

@@ -1,0 +1,211 @@
+#include "apps/plan_resolution/count.h"
+
+#include <cstdio>
+#include <iostream>
+
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/evaluation/block_count.h"
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
+#include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/surface_mesh/ply.h"
+#include "pipeline/depth_in_range.h"
+#include "ros/recording.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr double kMaxPoseGap_s = 0.1;
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+size_t offsetBytes(const PlanRow& row) { return mapBytes(row.map, 0); }
+
+// The rows [first, the result) whose offsets fit into the limit together, one at least.
+size_t endOfPass(const ResolutionPlan& plan, size_t first) {
+  size_t bytes = offsetBytes(plan.rows[first]), end = first + 1;
+  while (end < plan.rows.size() && bytes + offsetBytes(plan.rows[end]) <= plan.request.limit_bytes)
+    bytes += offsetBytes(plan.rows[end++]);
+  return end;
+}
+
+// Block selection for some of the rows, frame by frame.
+class SelectionPass {
+ public:
+  SelectionPass(const CountingOptions& options, ComputeContext& compute, PlanRow* begin, PlanRow* end)
+      : options_(options), compute_(compute), begin_(begin), end_(end) {}
+
+  void add(const RgbdFrame& frame, const Pose& T_W_D) {
+    if (!tracker_) {
+      const Eigen::Vector3d centre_W = windowCentre(frame, options_.parameters.preprocessing, T_W_D);
+      tracker_ = std::make_unique<FrameTracker>(compute_, options_.parameters, frame.intrinsics, nullptr);
+      for (PlanRow* row = begin_; row != end_; ++row) {
+        selected_.push_back(std::make_unique<SelectedBlocks>(compute_, row->map, centre_W));
+      }
+    }
+    tracker_->follow(frame, T_W_D, timers_);
+    for (const auto& selected : selected_) selected->add(*tracker_->depth(), T_W_D);
+  }
+
+  void finish() {
+    check(tracker_ != nullptr, "no frame of " + options_.input + " has a pose; see --trajectory");
+    for (size_t i = 0; i < selected_.size(); ++i) setBlocks(begin_[i], selected_[i]->kept());
+  }
+
+ private:
+  const CountingOptions& options_;
+  ComputeContext& compute_;
+  PlanRow* begin_;
+  PlanRow* end_;
+  StageTimers timers_;
+  std::unique_ptr<FrameTracker> tracker_;
+  std::vector<std::unique_ptr<SelectedBlocks>> selected_;
+};
+
+}  // namespace
+
+struct BlockCounting::Surface {
+  virtual ~Surface() = default;
+  virtual void count(ResolutionPlan& plan) = 0;
+  virtual void tryOut(PlanRow& row) = 0;
+};
+
+struct BlockCounting::Mesh : BlockCounting::Surface {
+  explicit Mesh(const CountingOptions& options) : mesh(readPly(options.input)) {
+    check(!mesh.triangles.empty(), options.input + " has no triangles");
+    std::cout << "input: mesh of " << mesh.triangles.size() << " triangles" << std::endl;
+  }
+
+  void count(ResolutionPlan& plan) override {
+    Eigen::AlignedBox3d box;
+    for (const MeshVertex& vertex : mesh.vertices) box.extend(vertex.position_W.cast<double>());
+    for (PlanRow& row : plan.rows) {
+      if (offsetBytes(row) <= plan.request.limit_bytes)
+        setBlocks(row, blocksAround(mesh, row.map, box.center()));
+    }
+  }
+
+  void tryOut(PlanRow&) override {}
+
+  TriangleMesh mesh;
+};
+
+// A recording, read as often as needed.
+struct BlockCounting::Frames : BlockCounting::Surface {
+  explicit Frames(const CountingOptions& counting_options)
+      : options(counting_options),
+        compute(options.device),
+        recording(openRecording(options.input, options.recording)) {
+    std::cout << "input: " << recording->description() << std::endl;
+    if (!options.trajectory_file.empty()) trajectory = readPoses(options.trajectory_file);
+  }
+
+  void count(ResolutionPlan& plan) override {
+    if (trajectory.empty()) track();
+    for (size_t first = 0; first < plan.rows.size();) {
+      const size_t end = endOfPass(plan, first);
+      if (offsetBytes(plan.rows[first]) <= plan.request.limit_bytes) {
+        SelectionPass pass(options, compute, plan.rows.data() + first, plan.rows.data() + end);
+        forEachPosed("counting, rows " + std::to_string(first + 1) + " to " + std::to_string(end),
+                     [&](const RgbdFrame& frame, const Pose& T_W_D) { pass.add(frame, T_W_D); });
+        pass.finish();
+      }
+      first = end;
+    }
+  }
+
+  void tryOut(PlanRow& row) override {
+    PipelineParameters parameters = options.parameters;
+    parameters.map = row.map;
+    parameters.map.pool_mib = poolMebibytes(row);
+    std::unique_ptr<BlockSparseMap> map;
+    std::unique_ptr<Mapper> mapper;
+    std::unique_ptr<FrameTracker> tracker;
+    StageTimers timers;
+    forEachPosed(
+        "trying N " + std::to_string(row.map.blocks_per_axis) + ", M " + std::to_string(row.map.block_size),
+        [&](const RgbdFrame& frame, const Pose& T_W_D) {
+          if (!map) {
+            map = std::make_unique<BlockSparseMap>(compute, parameters.map);
+            mapper = std::make_unique<Mapper>(compute, *map, parameters, frame.intrinsics);
+            tracker = std::make_unique<FrameTracker>(compute, parameters, frame.intrinsics, nullptr);
+          }
+          tracker->follow(frame, T_W_D, timers);
+          mapper->fuse(frame, *tracker->depth(), T_W_D, timers);
+        });
+    setBlocks(row, map->usage().blocks);
+  }
+
+  void track() {
+    std::unique_ptr<ReconstructionPipeline> pipeline;
+    size_t lost = 0;
+    forEach("tracking", [&](const RgbdFrame& frame) {
+      if (!pipeline)
+        pipeline = std::make_unique<ReconstructionPipeline>(compute, options.parameters, frame.intrinsics);
+      const TrackingResult result = pipeline->processFrame(frame).tracking;
+      if (result.status == TrackingStatus::kLost) {
+        ++lost;
+      } else {
+        trajectory.push_back({frame.stamp_s, result.T_W_D});
+      }
+    });
+    check(!trajectory.empty(),
+          "no frame of " + options.input + " could be tracked; give its poses with --trajectory");
+    if (lost > 0) std::cout << lost << " frames are lost and not counted" << std::endl;
+  }
+
+  template <class Visit>
+  void forEach(const std::string& what, const Visit& visit) {
+    if (!recording) recording = openRecording(options.input, options.recording);
+    const size_t all = recording->frameCount();
+    const size_t count = options.max_frames == 0 ? all : std::min(all, options.max_frames);
+    for (size_t i = 0; i < count; ++i) {
+      if (const std::optional<RgbdFrame> frame = nextFrame()) visit(*frame);
+      if ((i + 1) % 50 == 0 || i + 1 == count)
+        std::cout << what << ": frame " << i + 1 << "/" << count << std::endl;
+    }
+    recording.reset();
+  }
+
+  // Nothing for a frame that cannot be read, which is said the first time.
+  std::optional<RgbdFrame> nextFrame() {
+    try {
+      return recording->next();
+    } catch (const Error& error) {
+      if (!has_complained) std::cerr << "plan_resolution: " << error.what() << "; left out" << std::endl;
+      has_complained = true;
+      return std::nullopt;
+    }
+  }
+
+  template <class Visit>
+  void forEachPosed(const std::string& what, const Visit& visit) {
+    forEach(what, [&](const RgbdFrame& frame) {
+      const std::optional<Pose> T_W_D = poseAt(trajectory, frame.stamp_s, kMaxPoseGap_s);
+      if (T_W_D) visit(frame, *T_W_D);
+    });
+  }
+
+  const CountingOptions& options;
+  ComputeContext compute;
+  std::unique_ptr<Recording> recording;  // null: read to its end
+  Trajectory trajectory;
+  bool has_complained = false;
+};
+
+BlockCounting::BlockCounting(const CountingOptions& options) {
+  if (endsWith(options.input, ".ply")) {
+    surface_ = std::make_unique<Mesh>(options);
+  } else {
+    surface_ = std::make_unique<Frames>(options);
+  }
+}
+
+BlockCounting::~BlockCounting() = default;
+
+void BlockCounting::count(ResolutionPlan& plan) { surface_->count(plan); }
+
+void BlockCounting::tryOut(PlanRow& row) { surface_->tryOut(row); }
+
+}  // namespace depth_fusion

@@ -1,0 +1,83 @@
+#include "model_view/mesh_renderer_kernels.h"
+
+#include "geometry/kernel_args.h"
+#include "map/map_args.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr char kBlocks[] = "model_view/list_mesh_blocks.cl",
+               kTriangles[] = "model_view/rasterise_triangles.cl";
+
+TransformArgs fromWorld(const ModelView& view) { return toArgs(Pose(view.T_W_D.inverse())); }
+
+int planeOf(const ModelView& view) { return static_cast<int>(planeElements(view.camera)); }
+
+}  // namespace
+
+MeshRendererKernels::MeshRendererKernels(ComputeContext& compute, const MapParameters& map)
+    : list_(compute, kBlocks, "list_surface_blocks", blockSizeOption(map)),
+      place_cores_(compute, kBlocks, "place_cores", blockSizeOption(map)),
+      place_lenders_(compute, kBlocks, "place_lenders", blockSizeOption(map)),
+      describe_(compute, kBlocks, "describe_members", blockSizeOption(map)),
+      number_(compute, kBlocks, "number_members", blockSizeOption(map)),
+      clear_(compute, kBlocks, "clear_places", blockSizeOption(map)),
+      project_(compute, kTriangles, "project_vertices"),
+      depth_(compute, kTriangles, "rasterise_depth"),
+      normals_(compute, kTriangles, "rasterise_normals"),
+      resolve_(compute, kTriangles, "resolve_view") {}
+
+void MeshRendererKernels::listSurfaceBlocks(BlockSparseMap& map, DeviceBuffer& listed, DeviceBuffer& count,
+                                            const ModelView& view, float min_range_m, float max_range_m) {
+  list_.run(map.slotBound(), map.blockIndices(), map.blockStates(), map.slotBound(), listed, count,
+            toArgs(view.camera), fromWorld(view), gridArgs(map), min_range_m, max_range_m);
+}
+
+void MeshRendererKernels::placeMembers(BlockSparseMap& map, DeviceBuffer& members, DeviceBuffer& places,
+                                       DeviceBuffer& count, int cores) {
+  place_cores_.run(cores, members, places, cores);
+  place_lenders_.run(cores, members, places, count, map.blockIndices(), map.offsets(), cores, gridArgs(map));
+}
+
+void MeshRendererKernels::describeMembers(BlockSparseMap& map, DeviceBuffer& blocks,
+                                          const DeviceBuffer& members, const DeviceBuffer& places, int cores,
+                                          int count) {
+  describe_.run(count, blocks, members, places, map.blockIndices(), map.offsets(), cores, count,
+                gridArgs(map));
+}
+
+void MeshRendererKernels::numberMembers(DeviceBuffer& blocks, const DeviceBuffer& firsts, int count) {
+  number_.run(count, blocks, firsts, count);
+}
+
+void MeshRendererKernels::clearPlaces(const DeviceBuffer& members, DeviceBuffer& places, int count) {
+  clear_.run(count, members, places, count);
+}
+
+void MeshRendererKernels::projectVertices(DeviceBuffer& projected, const DeviceBuffer& vertices, int count,
+                                          const ModelView& view) {
+  project_.run(count, projected, vertices, count, toArgs(view.camera), fromWorld(view));
+}
+
+void MeshRendererKernels::rasteriseDepth(DeviceBuffer& nearest, DeviceBuffer& drawn,
+                                         DeviceBuffer& drawn_count, const DeviceBuffer& projected,
+                                         const DeviceBuffer& triangles, int count, const ModelView& view,
+                                         float min_range_m, float max_range_m) {
+  depth_.run(count, nearest, drawn, drawn_count, projected, triangles, count, toArgs(view.camera),
+             min_range_m, max_range_m);
+}
+
+void MeshRendererKernels::rasteriseNormals(ModelView& view, const DeviceBuffer& nearest,
+                                           const DeviceBuffer& drawn, const DeviceBuffer& projected,
+                                           const DeviceBuffer& vertices, const DeviceBuffer& triangles,
+                                           int count) {
+  normals_.run(count, view.normals, planeOf(view), nearest, drawn, projected, vertices, triangles, count,
+               toArgs(view.camera), fromWorld(view));
+}
+
+void MeshRendererKernels::resolveView(ModelView& view, const DeviceBuffer& nearest) {
+  resolve_.run2d(view.camera.width, view.camera.height, view.depth, view.normals, planeOf(view), nearest,
+                 toArgs(view.camera));
+}
+
+}  // namespace depth_fusion
