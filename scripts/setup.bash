@@ -9,8 +9,8 @@ BUILD="$ROOT/build"
 export PATH="/usr/bin:$PATH"
 unset PYTHONHOME PYTHONPATH
 
-# What the rosdep keys of package.xml do not bring: tools, and a CPU device for OpenCL.
-TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd)
+# What the rosdep keys of package.xml do not bring: tools, a CPU device for OpenCL, and one that checks kernels.
+TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd oclgrind)
 ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 # Debian carries ROS 1 itself, under its own names.
 DEBIAN_PACKAGES=(

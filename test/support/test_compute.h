@@ -7,11 +7,16 @@
 
 namespace depth_fusion {
 
-// One a program. The environment variable DEPTH_FUSION_TEST_SIMD_WIDTH (1, 8 or 16) sets the kernels' width:
-// 1 tests on a CPU the shape that they have on a GPU.
+// The environment variable DEPTH_FUSION_TEST_SIMD_WIDTH (1, 8 or 16) sets the kernels' width: 1 tests on a
+// CPU the shape that they have on a GPU. 0 = the device's.
+inline int testSimdWidth() {
+  const char* width = std::getenv("DEPTH_FUSION_TEST_SIMD_WIDTH");
+  return width == nullptr ? 0 : std::atoi(width);
+}
+
+// One a program.
 inline ComputeContext& compute() {
-  static const char* width = std::getenv("DEPTH_FUSION_TEST_SIMD_WIDTH");
-  static ComputeContext context("", width == nullptr ? 0 : std::atoi(width));
+  static ComputeContext context("", testSimdWidth());
   return context;
 }
 
