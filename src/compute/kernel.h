@@ -54,11 +54,13 @@ class Kernel {
     try {
       cl_uint index = 0;
       (setArgument(index++, arguments), ...);
-      compute_->queue.enqueueNDRangeKernel(kernel_, cl::NullRange, global, local);
+      launch(global, local);
     } catch (const cl::Error& error) {
       throw Error("OpenCL kernel " + name_ + ": " + error.what() + ": " + statusText(error.err()));
     }
   }
+
+  void launch(const cl::NDRange& global, const cl::NDRange& local);
 
   ComputeContext::Impl* compute_;
   cl::Kernel kernel_;

@@ -19,6 +19,8 @@
 
 namespace depth_fusion {
 
+class KernelProfiler;
+
 struct ComputeContext::Impl {
   cl::Device device;
   cl::Context context;
@@ -26,6 +28,7 @@ struct ComputeContext::Impl {
   DeviceInfo info;
   std::string report;
   int simd_width = 1;                          // pixels or voxels a work-item handles at a time
+  KernelProfiler* profiler = nullptr;          // notes the launches, if there is one
   std::map<std::string, cl::Program> programs;  // by file and options
   std::mutex programs_mutex;
 
