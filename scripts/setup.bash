@@ -9,8 +9,9 @@ BUILD="$ROOT/build"
 export PATH="/usr/bin:$PATH"
 unset PYTHONHOME PYTHONPATH
 
-# What the rosdep keys of package.xml do not bring: tools, a CPU device for OpenCL, and one that checks kernels.
-TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd oclgrind)
+# What the rosdep keys of package.xml do not bring: tools, a CPU device for OpenCL, one that checks kernels, and
+# what draws plots.
+TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd oclgrind python3-matplotlib)
 ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 # Debian carries ROS 1 itself, under its own names.
 DEBIAN_PACKAGES=(
