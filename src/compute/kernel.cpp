@@ -10,8 +10,11 @@ Kernel::Kernel(ComputeContext& compute, const std::string& file, const std::stri
   const cl::Program& program = compute_->program(file, options);
   try {
     kernel_ = cl::Kernel(program, name.c_str());
+    const size_t limit = kernel_.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(compute_->device);
+    group_size_ = powerOfTwoWithin(std::min(compute_->group_size, limit));
   } catch (const cl::Error& error) {
-    throw Error("OpenCL kernel " + name + " of " + file + ": " + error.what() + ": " + statusText(error.err()));
+    throw Error("OpenCL kernel " + name + " of " + file + ": " + error.what() + ": " +
+                statusText(error.err()));
   }
 }
 

@@ -58,7 +58,7 @@ RgbdFrame roomFrame(int number) {
 
 // A context a test: oclgrind's does not outlive the main function.
 struct EveryKernel : testing::Test {
-  ComputeContext compute{"", testSimdWidth()};
+  ComputeContext compute{"", testSimdWidth(), testGroupSize()};
 };
 
 Vector6d someVelocity() { return Vector6d::Constant(0.2); }
@@ -67,6 +67,18 @@ TEST_F(EveryKernel, OfCompute) {
   DeviceBuffer layout(compute, 4096 * sizeof(int), "the layout");
   Kernel(compute, "compute/shared_types.cl", "report_layout").run(1, layout);
   EXPECT_GT(layout.read<int>(1).front(), 0);
+}
+
+TEST_F(EveryKernel, OfTheLimits) {
+  constexpr size_t kItems = 8, kElements = 16 * 64 * kItems;
+  DeviceBuffer a(compute, kElements * sizeof(float), "a limit"),
+      b(compute, kElements * sizeof(float), "a limit");
+  a.fill(0, a.bytes());
+  Kernel(compute, "compute/limits.cl", "do_nothing").run(1, a);
+  Kernel(compute, "compute/limits.cl", "multiply_add").run(kItems, a, 4, 0.5f);
+  Kernel(compute, "compute/limits.cl", "gather_words").run(kItems, a, b, 4, 63);
+  Kernel(compute, "compute/limits.cl", "copy_memory").run(kItems, a, b);
+  EXPECT_EQ(b.read<float>(1), a.read<float>(1));
 }
 
 TEST_F(EveryKernel, OfPreprocessing) {

@@ -18,8 +18,8 @@ std::optional<KernelCost> kernelCost(const std::string& kernel, StageFixture& fi
   const MapParameters& map = fixture.mapParameters();
   const double voxels = VOXELS_PER_ITEM(width, map.block_size);
   const double band_samples = 2.0 * map.truncation_m / (0.5 * map.voxel_size_m * map.block_size) + 1.0;
-  // A row of the image is a work-group of accumulate_system, of one work-item or, on GPUs, 64.
-  const double row_part = fixture.camera().width / (width == 1 ? 64.0 : 1.0);
+  // A row of the image is a work-group of accumulate_system, of one work-item but on GPUs.
+  const double row_part = fixture.camera().width / (width == 1 ? fixture.compute().impl().group_size : 1.0);
   // element, elements a work-item, bytes, flops, gathers
   const std::map<std::string, KernelCost> costs = {
       {"depth_to_metres_u16", {"pixel", 1.0 * width, 2 + 4, 2, 0}},
