@@ -21,7 +21,7 @@ constexpr CameraIntrinsics kColorCamera{58, 44, 48.0, 48.0, 28.5, 21.5};
 
 PipelineParameters smallParameters() {
   PipelineParameters parameters;
-  parameters.map.voxel_size_m = 0.12f;
+  parameters.map.voxel_size_m = 0.1f;
   parameters.map.blocks_per_axis = 12;
   parameters.map.pool_mib = 1;
   parameters.map.color = true;

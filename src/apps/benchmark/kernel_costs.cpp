@@ -20,6 +20,7 @@ std::optional<KernelCost> kernelCost(const std::string& kernel, StageFixture& fi
   const double band_samples = 2.0 * map.truncation_m / (0.5 * map.voxel_size_m * map.block_size) + 1.0;
   // A row of the image is a work-group of accumulate_system, of one work-item but on GPUs.
   const double row_part = fixture.camera().width / (width == 1 ? fixture.compute().impl().group_size : 1.0);
+  const double rays = RAY_PATCHES(width) * RAY_STRIDE * RAY_STRIDE * static_cast<double>(width);
   // element, elements a work-item, bytes, flops, gathers
   const std::map<std::string, KernelCost> costs = {
       {"depth_to_metres_u16", {"pixel", 1.0 * width, 2 + 4, 2, 0}},
@@ -35,8 +36,7 @@ std::optional<KernelCost> kernelCost(const std::string& kernel, StageFixture& fi
       {"list_visible_blocks", {"block", 1, 16 + 4, 50, 4}},
       {"integrate_blocks", {"voxel", voxels, 2 + 2, 60, 1}},
       {"splat_block_ranges", {"block", 1, 16 + 4, 150, 4}},
-      {"raycast_coarse", {"ray", 1.0 * width, 4, 60 * kRaySteps, 2 * kRaySteps}},
-      {"raycast_fine", {"ray", 1.0 * width, 4 + 16, 150, 16}},
+      {"raycast", {"ray", rays, 4 + 12, 16 * 3 + 60 * kRaySteps, 2 * kRaySteps + 16}},
       {"rate_pixels", {"pixel", 1.0 * width, 4 + 4 + 4, 25 * 4 + 20, 0}}};
   const auto cost = costs.find(kernel);
   if (cost == costs.end()) return std::nullopt;
