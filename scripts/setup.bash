@@ -9,8 +9,9 @@ BUILD="$ROOT/build"
 export PATH="/usr/bin:$PATH"
 unset PYTHONHOME PYTHONPATH
 
-# What the rosdep keys of package.xml do not bring: tools, and a CPU device for OpenCL.
-TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd)
+# What the rosdep keys of package.xml do not bring: tools, a CPU device for OpenCL, one that checks kernels, and
+# what draws plots.
+TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd oclgrind python3-matplotlib)
 ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 # Debian carries ROS 1 itself, under its own names.
 DEBIAN_PACKAGES=(
@@ -24,7 +25,7 @@ DEBIAN_PACKAGES=(
   python3-std-srvs python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs
   librostest-dev python3-rostest python3-roslaunch python3-rosbag python3-rosservice python3-rostopic rosbash rosout rospack-tools rviz
   libeigen3-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev
-  ocl-icd-opencl-dev opencl-headers
+  ocl-icd-opencl-dev opencl-headers libbenchmark-dev
 )
 
 say() { echo "== $*" >&2; }

@@ -36,7 +36,7 @@ __kernel void request_blocks(__global const float *depth, __global int *offsets,
     if (entry < args.capacity) {
       requests[entry] = (int4)(block, 0);
     } else {
-      offsets[address] = BLOCK_EMPTY;
+      atomic_xchg(offsets + address, BLOCK_EMPTY);
     }
   }
 }

@@ -1,20 +1,23 @@
-// benchmark: the experiments behind docs/, a subcommand each, in benchmark/.
+// benchmark: how fast everything is, and the experiments behind docs/, a subcommand each, in benchmark/.
 #include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "apps/benchmark/filters.h"
 #include "apps/benchmark/resolution.h"
+#include "apps/benchmark/suite.h"
 #include "apps/benchmark/tracking.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Runs an experiment and writes its tables and pictures.");
-  app.require_subcommand(1);
+  CLI::App app("Measures how fast everything is, or runs an experiment and writes its tables and pictures.");
+  app.require_subcommand(0, 1);
   depth_fusion::addFiltersBenchmark(app);
   depth_fusion::TrackingBenchmark tracking;
   depth_fusion::addTrackingBenchmark(app, tracking);
   depth_fusion::ResolutionOptions resolution, renderers;
   depth_fusion::addResolutionBenchmark(app, resolution);
   depth_fusion::addRenderersBenchmark(app, renderers);
+  depth_fusion::TrackingBenchmark suite;
+  depth_fusion::addBenchmarkSuite(app, suite);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

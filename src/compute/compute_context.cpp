@@ -59,19 +59,28 @@ bool matches(const std::string& choice, size_t index, const DeviceInfo& info) {
   return lowerCase(info.name).find(wanted) != std::string::npos;
 }
 
-// Explicit vectors pay on CPUs, whose compilers vectorise these kernels poorly; a GPU's work-items are its lanes.
+// Explicit vectors pay on CPUs, whose compilers vectorise these kernels poorly; a GPU's work-items are its
+// lanes.
 int simdWidth(const cl::Device& device, const DeviceInfo& info) {
   if (!info.is_cpu) return 1;
   return device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>() >= 16 ? 16 : 8;
 }
 
-void openDevice(ComputeContext::Impl& impl, const cl::Device& device, int simd_width) {
+// More work-items a group would only leave more of them idle at the ends of rows and lists.
+constexpr size_t kMostGroupItems = 64;
+
+size_t groupSize(const cl::Device& device) {
+  return powerOfTwoWithin(std::min(kMostGroupItems, device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>()));
+}
+
+void openDevice(ComputeContext::Impl& impl, const cl::Device& device, int simd_width, int group_size) {
   impl.device = device;
   impl.info = infoOf(device);
   impl.context = cl::Context(device);
   impl.queue = cl::CommandQueue(impl.context, device);
   impl.programs.clear();
   impl.simd_width = simd_width > 0 ? simd_width : simdWidth(device, impl.info);
+  impl.group_size = group_size > 0 ? group_size : groupSize(device);
 }
 
 // Runs a kernel that uses what the stages need (vectors, gathers, atomics) and compares its result.
@@ -85,7 +94,8 @@ void selfTest(ComputeContext& compute) {
   sum.fill(0, sizeof(int));
   const int width = compute.impl().simd_width;
   Kernel(compute, "compute/self_test.cl", "sum_of_squares").run(kCount / width, input, sum, kCount / width);
-  const int expected = std::accumulate(values.begin(), values.end(), 0, [](int s, int v) { return s + v * v; });
+  const int expected =
+      std::accumulate(values.begin(), values.end(), 0, [](int s, int v) { return s + v * v; });
   const int found = sum.read<int>(1).front();
   check(found == expected,
         "the self-test gave " + std::to_string(found) + " instead of " + std::to_string(expected));
@@ -99,12 +109,14 @@ std::vector<DeviceInfo> ComputeContext::listDevices() {
   return infos;
 }
 
-ComputeContext::ComputeContext(const std::string& choice, int simd_width) : impl_(std::make_unique<Impl>()) {
+ComputeContext::ComputeContext(const std::string& choice, int simd_width, int group_size)
+    : impl_(std::make_unique<Impl>()) {
   const char* environment = std::getenv("DEPTH_FUSION_DEVICE");
   const std::string wanted = choice.empty() && environment != nullptr ? environment : choice;
   const std::vector<cl::Device> devices = allDevices();
   check(!devices.empty(),
-        "no OpenCL device found; install one, as the CPU device of the package pocl-opencl-icd, and see `clinfo`");
+        "no OpenCL device found; install one, as the CPU device of the package pocl-opencl-icd, and see "
+        "`clinfo`");
 
   std::vector<size_t> order(devices.size());
   std::iota(order.begin(), order.end(), 0);
@@ -118,7 +130,7 @@ ComputeContext::ComputeContext(const std::string& choice, int simd_width) : impl
       continue;
     }
     try {
-      openDevice(*impl_, devices[index], simd_width);
+      openDevice(*impl_, devices[index], simd_width, group_size);
       selfTest(*this);
       impl_->report = label + " (" + info.platform + ", " + info.version + ", vectors of " +
                       std::to_string(impl_->simd_width) + "), self-test passed" + refused;
@@ -140,6 +152,7 @@ std::unique_ptr<ComputeContext> ComputeContext::anotherQueue() {
   other->info = impl_->info;
   other->report = impl_->report;
   other->simd_width = impl_->simd_width;
+  other->group_size = impl_->group_size;
   const std::lock_guard<std::mutex> lock(impl_->programs_mutex);
   other->programs = impl_->programs;
   return std::unique_ptr<ComputeContext>(new ComputeContext(std::move(other)));

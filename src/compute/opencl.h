@@ -19,19 +19,26 @@
 
 namespace depth_fusion {
 
+class KernelProfiler;
+
 struct ComputeContext::Impl {
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;
   DeviceInfo info;
   std::string report;
-  int simd_width = 1;                          // pixels or voxels a work-item handles at a time
+  int simd_width = 1;                           // pixels or voxels a work-item handles at a time
+  size_t group_size = 1;                        // most work-items of a work-group, a power of two
+  KernelProfiler* profiler = nullptr;           // notes the launches, if there is one
   std::map<std::string, cl::Program> programs;  // by file and options
   std::mutex programs_mutex;
 
   // Builds the program once, for any thread. file: path below kernels/. Throws Error with the build log.
   const cl::Program& program(const std::string& file, const std::string& options);
 };
+
+// The largest power of two up to a limit of 1 or more.
+constexpr size_t powerOfTwoWithin(size_t limit) { return limit < 2 ? 1 : 2 * powerOfTwoWithin(limit / 2); }
 
 // Text of an OpenCL status code.
 std::string statusText(cl_int status);

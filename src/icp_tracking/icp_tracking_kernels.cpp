@@ -6,7 +6,7 @@
 namespace depth_fusion {
 
 IcpTracker::Kernels::Kernels(ComputeContext& compute)
-    : group_size_(compute.impl().simd_width == 1 ? 64 : 1),
+    : group_size_(compute.impl().simd_width == 1 ? compute.impl().group_size : 1),
       accumulate_(compute, "icp_tracking/accumulate_system.cl", "accumulate_system",
                   "-DGROUP_SIZE=" + std::to_string(group_size_)) {}
 

@@ -7,11 +7,20 @@
 
 namespace depth_fusion {
 
-// One a program. The environment variable DEPTH_FUSION_TEST_SIMD_WIDTH (1, 8 or 16) sets the kernels' width:
-// 1 tests on a CPU the shape that they have on a GPU.
+// 0 if the environment variable is not set.
+inline int numberFromEnvironment(const char* variable) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? 0 : std::atoi(text);
+}
+
+// The environment variables DEPTH_FUSION_TEST_SIMD_WIDTH (1, 8 or 16) and DEPTH_FUSION_TEST_GROUP_SIZE set the
+// kernels' shape: a width of 1 tests on a CPU the one that they have on a GPU. 0 = the device's.
+inline int testSimdWidth() { return numberFromEnvironment("DEPTH_FUSION_TEST_SIMD_WIDTH"); }
+inline int testGroupSize() { return numberFromEnvironment("DEPTH_FUSION_TEST_GROUP_SIZE"); }
+
+// One a program.
 inline ComputeContext& compute() {
-  static const char* width = std::getenv("DEPTH_FUSION_TEST_SIMD_WIDTH");
-  static ComputeContext context("", width == nullptr ? 0 : std::atoi(width));
+  static ComputeContext context("", testSimdWidth(), testGroupSize());
   return context;
 }
 

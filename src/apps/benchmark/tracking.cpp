@@ -1,7 +1,6 @@
 #include "apps/benchmark/tracking.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
@@ -135,11 +134,7 @@ void drawMeshes(const std::string& path, const std::vector<Variant>& variants, c
   check(cv::imwrite(path, row, {cv::IMWRITE_JPEG_QUALITY, 85}), "picture " + path + " cannot be written");
 }
 
-void runBenchmark(TrackingBenchmark options) {
-  if (options.data.empty()) {
-    const char* folder = std::getenv("DEPTH_FUSION_DATA");
-    options.data = folder != nullptr ? folder : "../shared/data";
-  }
+void runBenchmark(const TrackingBenchmark& options) {
   std::filesystem::create_directories(options.output);
   ComputeContext compute(options.device);
   const std::vector<Variant>& variants = options.gates ? kGates : kAblation;

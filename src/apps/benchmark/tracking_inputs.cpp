@@ -1,6 +1,7 @@
 #include "apps/benchmark/tracking_inputs.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
@@ -50,6 +51,12 @@ TrackingInput withInterruption(TrackingInput input, const std::string& what, con
   return input;
 }
 
+std::string dataFolder(const TrackingBenchmark& options) {
+  if (!options.data.empty()) return options.data;
+  const char* folder = std::getenv("DEPTH_FUSION_DATA");
+  return folder != nullptr ? folder : "../shared/data";
+}
+
 std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
   const TrackingInput white_room = simulated("white_room", "white_room");
   std::vector<TrackingInput> inputs = {simulated("wall", "wall"),
@@ -59,7 +66,8 @@ std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
                                        withInterruption(white_room, "_jump", {0, 50}),
                                        simulated("room_fast", "room", 0.5, 60.0)};
   const std::string kinect = options.cfg + "/kinect_v1.yaml";
-  const std::string tum = options.data + "/tum_fr1_xyz", kitchen = options.data + "/redkitchen";
+  const std::string data = dataFolder(options);
+  const std::string tum = data + "/tum_fr1_xyz", kitchen = data + "/redkitchen";
   if (std::filesystem::exists(tum)) {
     const TrackingInput desk = recorded("tum_fr1_xyz", tum, kinect, options.cfg + "/cameras/tum_freiburg1.yaml");
     inputs.insert(inputs.end(), {desk, atTenHertz(desk), withInterruption(desk, "_blackout", {30, 100}),
@@ -67,7 +75,7 @@ std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
   }
   if (std::filesystem::exists(kitchen)) inputs.push_back(recorded("redkitchen", kitchen, kinect, ""));
   if (!std::filesystem::exists(tum) || !std::filesystem::exists(kitchen)) {
-    std::cout << "the real recordings are not all in " << options.data << "; see --data" << std::endl;
+    std::cout << "the real recordings are not all in " << data << "; see --data" << std::endl;
   }
   return inputs;
 }

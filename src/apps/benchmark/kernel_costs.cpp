@@ -1,0 +1,46 @@
+#include "apps/benchmark/kernel_costs.h"
+
+#include <map>
+
+#include "compute/opencl.h"
+#include "map/map_args.h"
+
+namespace depth_fusion {
+namespace {
+
+// Steps of a ray, counted over tum_fr1_xyz (docs/benchmarks.md).
+constexpr double kRaySteps = 12.0;
+
+}  // namespace
+
+std::optional<KernelCost> kernelCost(const std::string& kernel, StageFixture& fixture) {
+  const int width = fixture.compute().impl().simd_width;
+  const MapParameters& map = fixture.mapParameters();
+  const double voxels = VOXELS_PER_ITEM(width, map.block_size);
+  const double band_samples = 2.0 * map.truncation_m / (0.5 * map.voxel_size_m * map.block_size) + 1.0;
+  // A row of the image is a work-group of accumulate_system, of one work-item but on GPUs.
+  const double row_part = fixture.camera().width / (width == 1 ? fixture.compute().impl().group_size : 1.0);
+  const double rays = RAY_PATCHES(width) * RAY_STRIDE * RAY_STRIDE * static_cast<double>(width);
+  // element, elements a work-item, bytes, flops, gathers
+  const std::map<std::string, KernelCost> costs = {
+      {"depth_to_metres_u16", {"pixel", 1.0 * width, 2 + 4, 2, 0}},
+      {"depth_to_metres_f32", {"pixel", 1.0 * width, 4 + 4, 2, 0}},
+      {"compensate_motion", {"pixel", 1.0 * width, 4 + 4, 80, 2}},
+      {"filter_bilateral", {"pixel", 1.0 * width, 4 + 4, 25 * 10 + 10, 0}},
+      {"halve_depth", {"pixel", 1, 16 + 4, 20, 0}},
+      {"compute_normals", {"pixel", 1.0 * width, 4 + 12, 9 * 6 + 30, 0}},
+      {"pack_measurements", {"pixel", 1.0 * width, 16 + 4, 45, 0}},
+      {"max_tiles", {"pixel", DEPTH_TILE * DEPTH_TILE, 4, 1, 0}},
+      {"accumulate_system", {"pixel", row_part, 16, 150, 4}},
+      {"request_blocks", {"pixel", 1, 4, 40 + 12 * band_samples, band_samples}},
+      {"list_visible_blocks", {"block", 1, 16 + 4, 50, 4}},
+      {"integrate_blocks", {"voxel", voxels, 2 + 2, 60, 1}},
+      {"splat_block_ranges", {"block", 1, 16 + 4, 150, 4}},
+      {"raycast", {"ray", rays, 4 + 12, 16 * 3 + 60 * kRaySteps, 2 * kRaySteps + 16}},
+      {"rate_pixels", {"pixel", 1.0 * width, 4 + 4 + 4, 25 * 4 + 20, 0}}};
+  const auto cost = costs.find(kernel);
+  if (cost == costs.end()) return std::nullopt;
+  return cost->second;
+}
+
+}  // namespace depth_fusion

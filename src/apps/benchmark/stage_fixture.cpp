@@ -1,0 +1,123 @@
+#include "apps/benchmark/stage_fixture.h"
+
+#include "depth_fusion/common/error.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr size_t kFusedFrames = 30;
+
+PipelineParameters fixtureParameters(const TrackingInput& input) {
+  PipelineParameters parameters = input.parameters;
+  parameters.map.color = true;
+  parameters.map.pool_mib = 128;
+  return withinSensorRange(parameters);
+}
+
+Vector6d handVelocity() {
+  Vector6d velocity;
+  velocity << 0.2, -0.1, 0.1, 0.3, -0.2, 0.1;
+  return velocity;
+}
+
+// Drops what it receives.
+struct NoMesh final : MeshSink {
+  void begin(const MeshSize&) override {}
+  void addVertices(const MeshVertex*, const MeshColor*, size_t) override {}
+  void addTriangles(const MeshTriangle*, size_t) override {}
+  void finish() override {}
+};
+
+RgbdFrame nextOf(Recording& recording) {
+  std::optional<RgbdFrame> frame = recording.next();
+  check(frame.has_value(), "a benchmark's recording has too few frames");
+  return std::move(*frame);
+}
+
+RgbdFrame frameNumber(const TrackingInput& input, size_t number) {
+  const std::unique_ptr<Recording> recording = input.open();
+  for (size_t i = 0; i < number; ++i) nextOf(*recording);
+  return nextOf(*recording);
+}
+
+Pose fuseFirstFrames(ReconstructionPipeline& pipeline, const TrackingInput& input) {
+  const std::unique_ptr<Recording> recording = input.open();
+  Pose T_W_D = Pose::Identity();
+  for (size_t i = 0; i < kFusedFrames; ++i) {
+    const TrackingResult tracking = pipeline.processFrame(nextOf(*recording)).tracking;
+    check(tracking.status != TrackingStatus::kLost, input.name + " is lost: " + tracking.reason);
+    T_W_D = tracking.T_W_D;
+  }
+  return T_W_D;
+}
+
+}  // namespace
+
+StageFixture::StageFixture(ComputeContext& compute, const TrackingInput& input)
+    : compute_(compute),
+      frame_(frameNumber(input, kFusedFrames - 1)),
+      next_frame_(frameNumber(input, kFusedFrames)),
+      pipeline_(compute, fixtureParameters(input), frame_.intrinsics),
+      T_W_D_(fuseFirstFrames(pipeline_, input)),
+      fused_map_(pipeline_.map().snapshot()),
+      parameters_(pipeline_.parameters()),
+      preprocessor_(compute, parameters_.preprocessing, frame_.intrinsics, parameters_.depth_sensor),
+      next_preprocessor_(compute, parameters_.preprocessing, frame_.intrinsics, parameters_.depth_sensor),
+      odometry_(parameters_.texture_odometry),
+      tracker_(compute, parameters_.icp_tracking, frame_.intrinsics),
+      fusion_(compute, pipeline_.map(), parameters_.tsdf_fusion),
+      color_fusion_(compute, pipeline_.map(), parameters_.color_fusion),
+      renderer_(compute, *fused_map_, frame_.intrinsics),
+      tracked_renderer_(compute, *fused_map_, frame_.intrinsics) {
+  preprocess();
+  next_preprocessor_.process(next_frame_, handVelocity());
+  fuseDepth();
+  tracked_renderer_.render(T_W_D_, parameters_.preprocessing.min_range_m,
+                           parameters_.preprocessing.max_range_m, timers_);
+}
+
+const std::vector<StageFixture::Stage>& StageFixture::stages() {
+  static const std::vector<Stage> all = {
+      {"preprocessing", &StageFixture::preprocess, true}, {"texture_odometry", &StageFixture::matchTexture},
+      {"icp_tracking", &StageFixture::track, true},       {"tsdf_fusion", &StageFixture::fuseDepth},
+      {"color_fusion", &StageFixture::fuseColor},         {"model_view", &StageFixture::renderView},
+      {"surface_mesh", &StageFixture::extractMesh}};
+  return all;
+}
+
+void StageFixture::run(const Stage& stage) {
+  timers_.clear();
+  (this->*stage.run)();
+  compute_.finish();
+}
+
+void StageFixture::preprocess() { preprocessor_.process(frame_, handVelocity()); }
+
+// To and fro between two frames.
+void StageFixture::matchTexture() { odometry_.process(matched_count_++ % 2 == 0 ? frame_ : next_frame_); }
+
+void StageFixture::track() {
+  tracker_.track(*next_preprocessor_.result(), *tracked_renderer_.view(), MotionPrior{T_W_D_, std::nullopt},
+                 timers_);
+}
+
+void StageFixture::fuseDepth() {
+  visible_count_ = fusion_.integrate(*preprocessor_.result(), T_W_D_, timers_).blocks_updated;
+}
+
+void StageFixture::fuseColor() {
+  color_fusion_.integrate(frame_, *preprocessor_.result(), T_W_D_, fusion_.visibleBlocks(), visible_count_,
+                          timers_);
+}
+
+void StageFixture::renderView() {
+  renderer_.render(T_W_D_, parameters_.preprocessing.min_range_m, parameters_.preprocessing.max_range_m,
+                   timers_);
+}
+
+void StageFixture::extractMesh() {
+  NoMesh mesh;
+  exportSurfaceMesh(compute_, *fused_map_, mesh, parameters_.surface_mesh);
+}
+
+}  // namespace depth_fusion

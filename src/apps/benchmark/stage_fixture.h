@@ -1,0 +1,56 @@
+// benchmark suite: a map in the middle of a recording, and each stage's work on the frame that comes next.
+#pragma once
+
+#include "apps/benchmark/tracking_inputs.h"
+#include "depth_fusion/color_fusion/color_fusion.h"
+
+namespace depth_fusion {
+
+class StageFixture {
+ public:
+  // Fuses the input's first frames. Inputs are frozen: one that changes gets a new name, so that figures
+  // under a name compare.
+  StageFixture(ComputeContext& compute, const TrackingInput& input);
+
+  struct Stage {
+    std::string name;
+    void (StageFixture::*run)();
+    bool has_levels = false;  // its kernels run on the levels of a pyramid
+  };
+  static const std::vector<Stage>& stages();
+
+  // Once, as the pipeline does in a frame; waits until it is done.
+  void run(const Stage& stage);
+
+  ComputeContext& compute() { return compute_; }
+  StageTimers& timers() { return timers_; }  // of the parts of stages
+  const CameraIntrinsics& camera() const { return frame_.intrinsics; }
+  const MapParameters& mapParameters() { return pipeline_.map().parameters(); }
+
+ private:
+  void preprocess();
+  void matchTexture();
+  void track();
+  void fuseDepth();
+  void fuseColor();
+  void renderView();
+  void extractMesh();
+
+  ComputeContext& compute_;
+  StageTimers timers_;
+  RgbdFrame frame_, next_frame_;  // the last that was fused, and the one after it
+  ReconstructionPipeline pipeline_;
+  Pose T_W_D_;                                 // of frame_
+  std::unique_ptr<BlockSparseMap> fused_map_;  // as it is before fusion goes on, for the stages that read it
+  PipelineParameters parameters_;
+  DepthPreprocessor preprocessor_, next_preprocessor_;
+  TextureOdometry odometry_;
+  IcpTracker tracker_;
+  TsdfFusion fusion_;
+  ColorFusion color_fusion_;
+  ModelViewRenderer renderer_, tracked_renderer_;
+  size_t visible_count_ = 0;
+  size_t matched_count_ = 0;
+};
+
+}  // namespace depth_fusion

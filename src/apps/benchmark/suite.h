@@ -1,0 +1,12 @@
+// benchmark without a subcommand: google-benchmark over every kernel, every stage and the whole pipeline.
+#pragma once
+
+#include "apps/benchmark/tracking.h"
+
+namespace depth_fusion {
+
+// What the app does without a subcommand; takes google-benchmark's own options, too. To be called when all
+// subcommands are there.
+void addBenchmarkSuite(CLI::App& app, TrackingBenchmark& options);
+
+}  // namespace depth_fusion
