@@ -13,13 +13,15 @@ constexpr double kRaySteps = 12.0;
 
 }  // namespace
 
-std::optional<KernelCost> kernelCost(const std::string& kernel, StageFixture& fixture) {
+std::optional<KernelCost> kernelCost(const std::string& kernel, double work_items, StageFixture& fixture) {
   const int width = fixture.compute().impl().simd_width;
   const MapParameters& map = fixture.mapParameters();
   const double voxels = VOXELS_PER_ITEM(width, map.block_size);
   const double band_samples = 2.0 * map.truncation_m / (0.5 * map.voxel_size_m * map.block_size) + 1.0;
-  // A row of the image is a work-group of accumulate_system, of one work-item but on GPUs.
-  const double row_part = fixture.camera().width / (width == 1 ? fixture.compute().impl().group_size : 1.0);
+  // A work-group of accumulate_system takes a row of its level's image; it has one work-item but on GPUs.
+  const double group_items = width == 1 ? fixture.compute().impl().group_size : 1.0;
+  const double rows = work_items / group_items;
+  const double row_part = rows * fixture.camera().width / fixture.camera().height / group_items;
   const double rays = RAY_PATCHES(width) * RAY_STRIDE * RAY_STRIDE * static_cast<double>(width);
   // element, elements a work-item, bytes, flops, gathers
   const std::map<std::string, KernelCost> costs = {

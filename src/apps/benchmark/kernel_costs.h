@@ -17,7 +17,7 @@ struct KernelCost {
   double gathers;       // words from places that data decide
 };
 
-// Nothing for kernels that it does not pay to estimate.
-std::optional<KernelCost> kernelCost(const std::string& kernel, StageFixture& fixture);
+// Of a kernel when launched with so many work-items; nothing for kernels that it does not pay to estimate.
+std::optional<KernelCost> kernelCost(const std::string& kernel, double work_items, StageFixture& fixture);
 
 }  // namespace depth_fusion
