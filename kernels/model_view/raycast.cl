@@ -1,7 +1,7 @@
 // Ray casting of the block-sparse map, as the paper has it: a ray is followed to the voxel where the distance first goes from
 // positive to negative, where trilinear interpolation finds the surface, and its normal. One ray of every 2x2 pixels is
-// followed; the others look for the surface where its plane meets them, and are followed only if it is not there. So what
-// is narrower than two pixels may be taken for what lies behind it.
+// followed; the others look for the surface where its plane meets them, and are followed if it is not there, but show nothing
+// where the first one met nothing. So what is narrower than two pixels may be missing, or taken for what lies behind it.
 #include "model_view/ray_march.h"
 #include "model_view/trilinear.h"
 #define PATCH_COLUMNS RAY_PATCH_COLUMNS(SIMD_WIDTH)
@@ -120,7 +120,7 @@ __kernel void raycast(__global const int *offsets, __global const char *voxels, 
       const vint in_view = (column < camera.width) & (row < camera.height);
       const Rays rays = make_rays(column, row, camera, T_W_D, grid);
       surfaces[k] = find_beside(rays, first_rays, first, in_view, origin, offsets, voxels, grid);
-      const vint missing = in_view & NOT(surfaces[k].known);
+      const vint missing = in_view & first.known & NOT(surfaces[k].known);
       marches[k] = begin_march(rays, missing, tile, range);
       any_missing |= missing;
     }

@@ -140,8 +140,8 @@ ParameterTable IcpTrackingParameters::table() {
        "eigenvalue a match, in the unit cube, up to which a direction is left to the prior (the paper's theta)"},
       {"correlated_points", &correlated_points, 1.0, 1e6,
        "matches that count as one measurement against a prior, for their errors are alike"},
-      {"convergence_rad", &convergence_rad, 0.0, 1.0, "rotation of a step below which a level has converged"},
-      {"convergence_m", &convergence_m, 0.0, 1.0, "translation of a step below which a level has converged"},
+      {"convergence_rad", &convergence_rad, 0.0, 1.0, "rotation of a step below which the full size has converged; four times that at half of it, and so on"},
+      {"convergence_m", &convergence_m, 0.0, 1.0, "the same for the translation"},
       {"min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0, "of the frame's points; lost below"},
       {"min_inliers", &min_inliers, 6, 100000000, "matches; lost below"},
       {"max_rmse_m", &max_rmse_m, 1e-5, 1.0, "point-to-plane; lost above"},
@@ -178,6 +178,7 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
   const double threshold = parameters_.degeneracy_threshold * (prior.information ? 1.0 : 0.1);
   const int iterations[] = {parameters_.fine_iterations, parameters_.middle_iterations, parameters_.coarse_iterations};
   const MatchGates gates = gatesAt(level);
+  const double coarseness = std::pow(4.0, level);  // the next level goes on from here
   for (int i = 0; i < iterations[level]; ++i) {
     alignment.system = kernels_->accumulateSystem(frame.levels[level], view, alignment.T_M_D, gates, partial_sums_);
     ++alignment.iterations;
@@ -187,8 +188,8 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
     const Vector6d step = limited(solution.twist, gates, box);
     alignment.T_M_D = poseFromTwist(step) * alignment.T_M_D;
     alignment.covariance = solution.covariance;
-    const bool converged =
-        step.head<3>().norm() < parameters_.convergence_rad && step.tail<3>().norm() < parameters_.convergence_m;
+    const bool converged = step.head<3>().norm() < coarseness * parameters_.convergence_rad &&
+                           step.tail<3>().norm() < coarseness * parameters_.convergence_m;
     if (!converged && i + 1 < iterations[level]) continue;
     alignment.free_directions = analysis.freeDirectionNames();
     alignment.smallest_eigenvalue = analysis.smallestEigenvalue();

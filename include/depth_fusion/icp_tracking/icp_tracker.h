@@ -22,8 +22,8 @@ struct IcpTrackingParameters {
   float coarse_normal_angle_rad = 0.8f;
   float fine_normal_angle_rad = 0.6f;
   float huber_sigmas = 2.0f;
-  float convergence_rad = 5e-5f;
-  float convergence_m = 5e-5f;
+  float convergence_rad = 1e-4f;
+  float convergence_m = 1e-4f;
   float degeneracy_threshold = 0.005f;
   float correlated_points = 300.0f;
   float min_inlier_fraction = 0.25f;
