@@ -54,7 +54,7 @@ __kernel void place_lenders(__global int *members, __global int *places, __globa
     if (atomic_cmpxchg(places + slot, PLACE_NONE, PLACE_CLAIMED) != PLACE_NONE) continue;
     const int place = atomic_inc(count);
     members[place] = slot;
-    places[slot] = place;
+    atomic_xchg(places + slot, place);
   }
 }
 

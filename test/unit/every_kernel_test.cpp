@@ -105,6 +105,9 @@ TEST_F(EveryKernel, OfTrackingFusionColourAndViews) {
   renderer.render(Pose::Identity(), 0.3f, 5.0f, timers);
   EXPECT_GT(cv::sum(renderer.shadedPicture())[0], 0.0);
   EXPECT_GT(cv::sum(renderer.coloredPicture())[0], 0.0);
+  ModelViewRenderer mesh_renderer(compute, pipeline.map(), kCamera, {"marching_cubes"});
+  const ModelView& view = mesh_renderer.render(Pose::Identity(), 0.3f, 5.0f, timers);
+  EXPECT_GT(cv::countNonZero(readImage(view.depth, kCamera, 1)), 0);
   TriangleMesh mesh;
   exportSurfaceMesh(compute, pipeline.map(), mesh);
   EXPECT_FALSE(mesh.triangles.empty());

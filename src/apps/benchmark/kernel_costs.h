@@ -17,7 +17,8 @@ struct KernelCost {
   double gathers;       // words from places that data decide
 };
 
-// Of a kernel when launched with so many work-items; nothing for kernels that it does not pay to estimate.
-std::optional<KernelCost> kernelCost(const std::string& kernel, double work_items, StageFixture& fixture);
+// Nothing for kernels that it does not pay to estimate.
+std::optional<KernelCost> kernelCost(const std::string& kernel, const StageFixture::Stage& stage,
+                                     StageFixture& fixture);
 
 }  // namespace depth_fusion

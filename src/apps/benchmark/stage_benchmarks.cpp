@@ -79,7 +79,7 @@ void runKernel(State& state, StageFixture& fixture, const Stage& stage, const St
     total.seconds += work.seconds;
     total.items += work.items;
   }
-  const std::optional<KernelCost> cost = kernelCost(kernel.kernel, total.items / state.iterations(), fixture);
+  const std::optional<KernelCost> cost = kernelCost(kernel.kernel, stage, fixture);
   if (cost && total.items > 0.0) countWork(state, *cost, total);
 }
 

@@ -1,5 +1,7 @@
 #include "apps/benchmark/stage_fixture.h"
 
+#include <cmath>
+
 #include "depth_fusion/common/error.h"
 
 namespace depth_fusion {
@@ -65,6 +67,8 @@ StageFixture::StageFixture(ComputeContext& compute, const TrackingInput& input)
       next_preprocessor_(compute, parameters_.preprocessing, frame_.intrinsics, parameters_.depth_sensor),
       odometry_(parameters_.texture_odometry),
       tracker_(compute, parameters_.icp_tracking, frame_.intrinsics),
+      icp_kernels_(compute),
+      partial_sums_(compute, frame_.intrinsics.height * ICP_SUMS * sizeof(float), "ICP sums"),
       fusion_(compute, pipeline_.map(), parameters_.tsdf_fusion),
       color_fusion_(compute, pipeline_.map(), parameters_.color_fusion),
       renderer_(compute, *fused_map_, frame_.intrinsics),
@@ -77,11 +81,16 @@ StageFixture::StageFixture(ComputeContext& compute, const TrackingInput& input)
 }
 
 const std::vector<StageFixture::Stage>& StageFixture::stages() {
-  static const std::vector<Stage> all = {
-      {"preprocessing", &StageFixture::preprocess, true}, {"texture_odometry", &StageFixture::matchTexture},
-      {"icp_tracking", &StageFixture::track, true},       {"tsdf_fusion", &StageFixture::fuseDepth},
-      {"color_fusion", &StageFixture::fuseColor},         {"model_view", &StageFixture::renderView},
-      {"surface_mesh", &StageFixture::extractMesh}};
+  static const std::vector<Stage> all = {{"preprocessing", &StageFixture::preprocess, true},
+                                         {"texture_odometry", &StageFixture::matchTexture},
+                                         {"icp_tracking", &StageFixture::track},
+                                         {"icp_tracking/level0", &StageFixture::accumulateLevel<0>, false, 0},
+                                         {"icp_tracking/level1", &StageFixture::accumulateLevel<1>, false, 1},
+                                         {"icp_tracking/level2", &StageFixture::accumulateLevel<2>, false, 2},
+                                         {"tsdf_fusion", &StageFixture::fuseDepth},
+                                         {"color_fusion", &StageFixture::fuseColor},
+                                         {"model_view", &StageFixture::renderView},
+                                         {"surface_mesh", &StageFixture::extractMesh}};
   return all;
 }
 
@@ -99,6 +108,16 @@ void StageFixture::matchTexture() { odometry_.process(matched_count_++ % 2 == 0 
 void StageFixture::track() {
   tracker_.track(*next_preprocessor_.result(), *tracked_renderer_.view(), MotionPrior{T_W_D_, std::nullopt},
                  timers_);
+}
+
+// One iteration's sums.
+template <int level>
+void StageFixture::accumulateLevel() {
+  const IcpTrackingParameters& icp = parameters_.icp_tracking;
+  const MatchGates gates = {icp.fine_distance_m, std::cos(icp.fine_normal_angle_rad), icp.huber_sigmas,
+                            level == 0 ? icp.fine_row_step : 1};
+  icp_kernels_.accumulateSystem(next_preprocessor_.result()->levels[level], *tracked_renderer_.view(),
+                                Pose::Identity(), gates, partial_sums_);
 }
 
 void StageFixture::fuseDepth() {

@@ -3,6 +3,7 @@
 
 #include "apps/benchmark/tracking_inputs.h"
 #include "depth_fusion/color_fusion/color_fusion.h"
+#include "icp_tracking/icp_tracking_kernels.h"
 
 namespace depth_fusion {
 
@@ -16,6 +17,7 @@ class StageFixture {
     std::string name;
     void (StageFixture::*run)();
     bool has_levels = false;  // its kernels run on the levels of a pyramid
+    int level = -1;           // the only one that it works on, if it is one
   };
   static const std::vector<Stage>& stages();
 
@@ -31,6 +33,8 @@ class StageFixture {
   void preprocess();
   void matchTexture();
   void track();
+  template <int level>
+  void accumulateLevel();
   void fuseDepth();
   void fuseColor();
   void renderView();
@@ -46,6 +50,8 @@ class StageFixture {
   DepthPreprocessor preprocessor_, next_preprocessor_;
   TextureOdometry odometry_;
   IcpTracker tracker_;
+  IcpTracker::Kernels icp_kernels_;
+  DeviceBuffer partial_sums_;
   TsdfFusion fusion_;
   ColorFusion color_fusion_;
   ModelViewRenderer renderer_, tracked_renderer_;
