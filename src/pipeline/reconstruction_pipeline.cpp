@@ -42,7 +42,10 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
 
 ReconstructionPipeline::TexturedFrame ReconstructionPipeline::findMotion(const RgbdFrame& frame) {
   TexturedFrame textured;
-  if (!parameters_.texture_odometry.enabled) return textured;
+  if (!parameters_.texture_odometry.enabled) {
+    textured.motion.reason = textured.features.reason = "texture_odometry/enabled is false";
+    return textured;
+  }
   StageTimers timers;
   {
     const StageTimers::Scope timer(timers, "texture_odometry");
