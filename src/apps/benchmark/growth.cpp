@@ -12,13 +12,12 @@ namespace depth_fusion {
 namespace {
 
 constexpr double kRoomPitch_m = 6.0;  // more than a room's diagonal
-constexpr double kTarget = 1.1;       // a frame at the end over one after the first room
+constexpr size_t kYoungFrames = 500;
+constexpr double kTarget = 1.1;  // a frame at the end over one after so many
 
-// Depth alone: what texture takes depends on no map, and the rooms look alike, so that keyframes would
 // mislead.
 PipelineParameters walkParameters(double voxel_mm, double window_m) {
   PipelineParameters parameters;
-  parameters.texture_odometry.enabled = false;
   MapParameters& map = parameters.map;
   map.voxel_size_m = static_cast<float>(0.001 * voxel_mm);
   map.blocks_per_axis = static_cast<int>(std::lround(window_m / (map.block_size * map.voxel_size_m)));
@@ -70,15 +69,20 @@ GrowthSample visit(GrowthWalk& walk, const Eigen::Vector3d& room_W, const Camera
   return sample;
 }
 
+// Where the first room has just been mapped (again).
+void enterAndMap(GrowthWalk& walk) {
+  walk.enter(rooms().front());
+  walk.lookForth();
+  walk.startTiming();
+}
+
 // The grown walk back in its first room, and a new one that knows nothing else, in turn on the same views.
 void compareInTurn(ComputeContext& compute, const PipelineParameters& parameters, GrowthWalk& grown,
                    const std::vector<RgbdFrame>& views) {
   GrowthWalk young(compute, parameters, views);
-  for (GrowthWalk* walk : {&young, &grown}) {
-    walk->enter(rooms().front());
-    walk->lookForth();
-    walk->startTiming();
-  }
+  do enterAndMap(young);
+  while (young.frames() < kYoungFrames);
+  enterAndMap(grown);
   const size_t young_frames = young.frames(), grown_frames = grown.frames();
   for (size_t view = views.size(); view-- > 0;) {
     GrowthWalk* const first = view % 2 == 0 ? &young : &grown;

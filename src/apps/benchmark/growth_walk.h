@@ -8,8 +8,9 @@
 
 namespace depth_fusion {
 
-// Depth images of consecutive views of the simulated room, in millimetres as sensors give them.
-// `width` scales the camera of 640x480.
+// Depth images, without colour (what texture takes depends on no map, and keyframes of rooms alike mislead),
+// of consecutive views of the simulated room, in millimetres as sensors give them. `width` scales the camera
+// of 640x480.
 std::vector<RgbdFrame> roomViews(int width, size_t count);
 
 class GrowthWalk {
