@@ -12,6 +12,7 @@ struct GrowthOptions {
   std::string device;
   size_t frames = 10000;
   size_t views = 250;  // of a room
+  size_t rooms = 18;
   std::vector<int> widths = {320, 640, 960, 1280};
   std::vector<double> voxels_mm = {20.0, 10.0, 5.0, 2.5};
   size_t few_views = 30;  // of the curves over image and voxel size
