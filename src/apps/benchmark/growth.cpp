@@ -11,7 +11,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kRoomPitch_m = 6.0;  // more than a room's diagonal
+constexpr double kRoomPitch_m = 7.0;  // a room's diagonal is 6; nearer ones come into view
 constexpr size_t kYoungFrames = 500;
 constexpr double kTarget = 1.1;  // a frame at the end over one after so many
 
@@ -37,7 +37,7 @@ std::vector<Eigen::Vector3d> rooms() {
   return corners;
 }
 
-constexpr double kRoomsWindow_m = 19.2, kRoomWindow_m = 10.24;
+constexpr double kRoomsWindow_m = 20.48, kRoomWindow_m = 10.24;
 
 GrowthSample sampleOf(GrowthWalk& walk, const CameraIntrinsics& camera, double voxel_mm) {
   GrowthSample sample;
