@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "apps/benchmark/filters.h"
+#include "apps/benchmark/growth.h"
 #include "apps/benchmark/resolution.h"
 #include "apps/benchmark/suite.h"
 #include "apps/benchmark/tracking.h"
@@ -16,6 +17,8 @@ int main(int argc, char** argv) {
   depth_fusion::ResolutionOptions resolution, renderers;
   depth_fusion::addResolutionBenchmark(app, resolution);
   depth_fusion::addRenderersBenchmark(app, renderers);
+  depth_fusion::GrowthOptions growth;
+  depth_fusion::addGrowthBenchmark(app, growth);
   depth_fusion::TrackingBenchmark suite;
   depth_fusion::addBenchmarkSuite(app, suite);
   try {

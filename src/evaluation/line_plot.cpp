@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
@@ -16,7 +17,8 @@ const cv::Size kCanvas(740, 470);
 constexpr int kLegend_px = 170;
 const cv::Scalar kInk(50, 50, 50);
 const cv::Scalar kGrid(228, 228, 228);
-const cv::Scalar kColors[] = {{180, 120, 30}, {40, 120, 240}, {60, 160, 50}, {150, 60, 150}};
+const cv::Scalar kColors[] = {{180, 120, 30}, {40, 120, 240}, {60, 160, 50},
+                              {150, 60, 150}, {160, 160, 40}, {50, 50, 50}};
 
 void writeCentred(cv::Mat& canvas, const std::string& text, const cv::Point& centre) {
   int baseline = 0;
@@ -127,7 +129,7 @@ cv::Mat draw(const LinePlot& plot) {
   int legend_row = kFrame.y + 20;
   for (size_t i = 0; i < plot.lines.size(); ++i, legend_row += 20) {
     const auto& points = plot.lines[i].points;
-    const cv::Scalar color = kColors[i % 4];
+    const cv::Scalar color = kColors[i % std::size(kColors)];
     for (size_t k = 1; k < points.size(); ++k) {
       cv::line(canvas, axes.pixelOf(points[k - 1]), axes.pixelOf(points[k]), color, 2, cv::LINE_AA);
     }
