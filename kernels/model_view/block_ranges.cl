@@ -47,6 +47,7 @@ __kernel void splat_block_ranges(__global const int4 *block_indices, __global co
   const float3 axis_y = quarter_m * (float3)(T_D_W.rotation[1], T_D_W.rotation[4], T_D_W.rotation[7]);
   const float3 axis_z = quarter_m * (float3)(T_D_W.rotation[2], T_D_W.rotation[5], T_D_W.rotation[8]);
   const float3 reach = fabs(axis_x) + fabs(axis_y) + fabs(axis_z);
+  if (!sphere_in_view(middle, 2.0f * 1.7320508f * quarter_m, camera)) return;
   if (middle.z + 2.0f * reach.z < range.min_m || middle.z - 2.0f * reach.z > range.max_m) return;
   for (int octant = 0; octant < 8; ++octant) {
     if (!(octants >> (octant + BLOCK_NEAR_SURFACE_SHIFT) & 1)) continue;

@@ -21,9 +21,9 @@ __kernel void compensate_motion(__global const float *depth, __global float *com
     const vfloat moved_x = z * (r.y - r.z * ray_y) + t.x;
     const vfloat moved_y = z * (r.z * ray_x - r.x) + t.y;
     const vfloat moved_z = z * (r.x * ray_y - r.y * ray_x) + t.z;
-    const vfloat source_z = max(z - moved_z, (vfloat)(1e-3f));
-    const vfloat u = camera.fx * (z * ray_x - moved_x) / source_z + camera.cx + 0.5f;
-    const vfloat v = camera.fy * (z * ray_y - moved_y) / source_z + camera.cy + 0.5f;
+    const vfloat per_z = 1.0f / max(z - moved_z, (vfloat)(1e-3f));
+    const vfloat u = camera.fx * (z * ray_x - moved_x) * per_z + camera.cx + 0.5f;
+    const vfloat v = camera.fy * (z * ray_y - moved_y) * per_z + camera.cy + 0.5f;
     found = found & (u >= 0.0f) & (v >= 0.0f) & (u < (float)camera.width) & (v < (float)camera.height);
     const vint column = TO_VINT(select((vfloat)(0.0f), u, found));
     const vint row = TO_VINT(select((vfloat)(0.0f), v, found));

@@ -53,8 +53,8 @@ __kernel void list_visible_blocks(__global const int4 *block_indices, __global i
   const float block_m = grid.voxel_size_m * BLOCK_SIZE;
   const float radius = 0.8660254f * block_m;
   const float3 centre = transform_point(T_D_W, (convert_float3(index.xyz) + 0.5f) * block_m);
+  if (!sphere_in_view(centre, radius, camera)) return;
   const float nearest = centre.z - radius;
-  if (centre.z + radius <= 0.0f) return;
   int x0 = 0, y0 = 0, x1 = camera.width - 1, y1 = camera.height - 1;
   if (nearest > 0.1f) {
     const float inverse = 1.0f / centre.z;
@@ -62,11 +62,10 @@ __kernel void list_visible_blocks(__global const int4 *block_indices, __global i
     const float v = camera.fy * centre.y * inverse + camera.cy;
     const float extent_u = camera.fx * radius * inverse * 1.5f + 1.0f;
     const float extent_v = camera.fy * radius * inverse * 1.5f + 1.0f;
-    if (u + extent_u < 0.0f || v + extent_v < 0.0f || u - extent_u > x1 || v - extent_v > y1) return;
-    x0 = max(x0, (int)(u - extent_u));
-    y0 = max(y0, (int)(v - extent_v));
-    x1 = min(x1, (int)(u + extent_u));
-    y1 = min(y1, (int)(v + extent_v));
+    x0 = clamp((int)(u - extent_u), 0, x1);
+    y0 = clamp((int)(v - extent_v), 0, y1);
+    x1 = clamp((int)(u + extent_u), 0, x1);
+    y1 = clamp((int)(v + extent_v), 0, y1);
   }
   const int tile_columns = (camera.width + DEPTH_TILE - 1) / DEPTH_TILE;
   float farthest = 0.0f;

@@ -176,6 +176,19 @@ TEST_P(SelectionOfBlockSize, ListsEveryBlockThatTheFrameUpdates) {
   }
 }
 
+TEST(BlockSelection, ListsNoBlockFarBesideTheCamera) {
+  BlockSparseMap map(compute(), mapParameters(8, 18, 0.016f));
+  map.allocate(windowBlocks(map));
+  const View view = viewOf(bumpyDepth(0.9), Pose::Identity());  // in the middle of the window
+  const double block_m = 8 * 0.016;
+  const std::set<int> visible = visibleSlots(map, frameOf(view), view.T_W_D);
+  for (const BlockSparseMap::Block& block : map.blocks()) {
+    const Eigen::Vector3d centre = block_m * (block.index.cast<double>() + Eigen::Vector3d::Constant(0.5));
+    const bool beside = std::abs(centre.z()) < block_m && centre.head<2>().norm() > 4.0 * block_m;
+    EXPECT_FALSE(beside && visible.count(block.slot)) << block.index.transpose();
+  }
+}
+
 TEST(BlockSelection, ListsEveryBlockThatAFilteredFrameUpdates) {
   BlockSparseMap map(compute(), mapParameters(8, 18, 0.016f));
   map.allocate(windowBlocks(map));

@@ -33,6 +33,7 @@ class Run {
   void fuseRecording();
   // The next frame, past those that cannot be read; nothing at the end.
   std::optional<RgbdFrame> nextFrame();
+  void buildPipeline(const CameraIntrinsics& camera);
   void fuseFrame(const RgbdFrame& frame, const RgbdFrame* next);
   void noteResult(const RgbdFrame& frame, const FrameResult& result);
   void noteLoss(const std::string& reason);
@@ -94,7 +95,7 @@ int Run::execute() {
 
 void Run::fuseRecording() {
   std::optional<RgbdFrame> frame = nextFrame();
-  if (frame) pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, frame->intrinsics);
+  if (frame) buildPipeline(frame->intrinsics);
   while (frame && !interrupted) {
     ++counts_.read;
     std::optional<RgbdFrame> next;
@@ -106,6 +107,17 @@ void Run::fuseRecording() {
   }
   if (pipeline_) showProgress(true);
   if (interrupted) complain("interrupted; the frames so far are written");
+}
+
+void Run::buildPipeline(const CameraIntrinsics& camera) {
+  std::cout << "building the kernels (seconds, the first time on a machine) ..." << std::flush;
+  StageTimers timers;
+  {
+    const StageTimers::Scope timer(timers, "build");
+    pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, camera);
+  }
+  std::printf(" %.1f s\n", timers.samplesMs().at("build").front() / 1000.0);
+  std::fflush(stdout);
 }
 
 std::optional<RgbdFrame> Run::nextFrame() {
