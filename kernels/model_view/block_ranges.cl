@@ -22,7 +22,8 @@ inline void splat_box(const Box box, __global int *nearest, __global uint *occup
   const int x0 = (int)fmax(u0, 0.0f) / RANGE_TILE, x1 = (int)fmin(u1 + 1.0f, camera.width - 1.0f) / RANGE_TILE;
   const int y0 = (int)fmax(v0, 0.0f) / RANGE_TILE, y1 = (int)fmin(v1 + 1.0f, camera.height - 1.0f) / RANGE_TILE;
 
-  const ulong bins = (2ul << (depth_bin(end, range) - depth_bin(start, range))) - 1 << depth_bin(start, range);
+  const int first_bin = depth_bin(start, range);
+  const ulong bins = ((2ul << (depth_bin(end, range) - first_bin)) - 1) << first_bin;
   const uint low = (uint)bins, high = (uint)(bins >> 32);
   for (int y = y0; y <= y1; ++y) {
     for (int tile = y * tiles_across(camera.width) + x0; tile <= y * tiles_across(camera.width) + x1; ++tile) {

@@ -86,7 +86,7 @@ TEST_P(SelectedBlocksOfSize, KeepsThoseThatHoldAVoxelNearTheSurface) {
   const size_t truth =
       blocksWithData(map, centre, [&](const Eigen::Vector3d& p) { return normal.dot(p - centre); });
   ASSERT_GT(truth, 60u);
-  EXPECT_GT(blocks.claimed(), truth);
+  EXPECT_GE(blocks.claimed(), truth);
   expectWithin(0.05, blocks.kept(), truth);
 }
 
