@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "depth_fusion/pipeline/warm_up.h"
 #include "depth_fusion/simulation/simulated_recording.h"
 #include "support/map_contents.h"
 #include "support/test_compute.h"
@@ -199,6 +200,18 @@ TEST(ReconstructionPipeline, TableNamesEveryStagesParameters) {
   EXPECT_EQ(parameters.icp_tracking.fine_iterations, 3);
   EXPECT_EQ(parameters.preprocessing.max_range_m, 2.5f);
   EXPECT_EQ(parameters.surface_mesh.min_certainty, 4);
+}
+
+TEST(WarmUp, RunsWhateverTheParameters) {
+  PipelineParameters parameters;
+  warmUp(compute(), parameters);
+  parameters.map.color = true;
+  parameters.map.block_size = 16;
+  parameters.model_view.renderer = "marching_cubes";
+  parameters.preprocessing.min_range_m = 0.15f;
+  parameters.preprocessing.max_range_m = 0.25f;
+  parameters.preprocessing.readout_s = 0.03f;
+  warmUp(compute(), parameters);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "depth_fusion/pipeline/frame_tracker.h"
 #include "depth_fusion/pipeline/mapper.h"
+#include "depth_fusion/pipeline/warm_up.h"
 #include "ros/messages.h"
 #include "ros/nodelets/rgbd_subscriber.h"
 #include "ros/nodelets/shared_map.h"
@@ -101,6 +102,7 @@ void TsdfFusionNodelet::start() {
   map_->frame_id = map_frame_;
   offerMap(getPrivateNodeHandle().getNamespace(), map_);
   NODELET_INFO_STREAM("OpenCL device: " << map_->compute->selfTestReport());
+  warmUp(*map_->compute, parameters_);
 
   view_publisher_ = handle.advertise<MapViewMessage>("model_view", 100);
   status_publisher_ = handle.advertise<MapStatus>("status", 100, true);
