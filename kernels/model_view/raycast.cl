@@ -128,7 +128,9 @@ __kernel void raycast(__global const int *offsets, __global const char *voxels, 
       follow(marches + 1, PATCH_RAYS - 1, origin, offsets, voxels, grid, range);
       for (int k = 1; k < PATCH_RAYS; ++k) {
         const vint hit = marches[k].hit_t > 0.0f;
-        surfaces[k] = choose(surfaces[k], find_surface(marches[k].rays, marches[k].hit_t, hit, origin, offsets, voxels, grid), hit);
+        const Surface found =
+            find_surface(marches[k].rays, marches[k].hit_t, hit, origin, offsets, voxels, grid);
+        surfaces[k] = choose(surfaces[k], found, hit);
       }
     }
     for (int k = 0; k < PATCH_RAYS; k += RAY_STRIDE) {

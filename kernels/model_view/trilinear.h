@@ -22,6 +22,13 @@ inline AxisNeighbours axis_neighbours(vint voxel, int axis, const GridArgs grid)
   return result;
 }
 
+inline vint slot_at(vint address, vint inside, __global const int *offsets) {
+  return select((vint)(-1), GATHER(vint, offsets, select((vint)(0), address, inside)), inside);
+}
+
+// Where blocks' distances begin in the pool; of slot 0 where there is no block.
+inline vint distances_of(vint slot) { return max(slot, (vint)(0)) * (2 * BLOCK_VOXELS); }
+
 // Trilinear interpolation of the distance at p, in steps of the distance byte, and its gradient in steps a voxel.
 // known: 0 where one of the eight voxels is chi.
 typedef struct {
@@ -41,24 +48,26 @@ inline Sample interpolate(vfloat px, vfloat py, vfloat pz, vint active, __global
   Sample sample;
   sample.known = inside;
   vfloat corner[8];
-  vint slots[4], next_slots[4];
+  vint slots[4], next_slots[4];  // of the blocks of each row's first voxel, and of its second
   for (int i = 0; i < 4; ++i) {
     const int cy = i & 1, cz = i >> 1;
-    const vint row = n * (ny.block[cy] + n * nz.block[cz]);
     if (i == 0 || (cy && any_y) || (cz && any_z)) {
-      slots[i] = select((vint)(-1), GATHER(vint, offsets, select((vint)(0), row + nx.block[0], inside)), inside);
-      next_slots[i] = slots[i];
-      if (any_x) next_slots[i] = select((vint)(-1), GATHER(vint, offsets, select((vint)(0), row + nx.block[1], inside)), inside);
+      const vint row = n * (ny.block[cy] + n * nz.block[cz]);
+      slots[i] = slot_at(row + nx.block[0], inside, offsets);
+      next_slots[i] = any_x ? slot_at(row + nx.block[1], inside, offsets) : slots[i];
     } else {
       slots[i] = slots[0];
       next_slots[i] = next_slots[0];
     }
     const vint row_in_block = (ny.in_block[cy] << BLOCK_SIZE_LOG2) + (nz.in_block[cz] << (2 * BLOCK_SIZE_LOG2));
-    const vint word = GATHER_FOUR_BYTES(voxels, max(slots[i], (vint)(0)) * (2 * BLOCK_VOXELS) + row_in_block + nx.in_block[0]);
-    const vint first = word << 24 >> 24;
-    vint second = word << 16 >> 24;
-    if (any_x) second = select(second, GATHER_BYTES(voxels, max(next_slots[i], (vint)(0)) * (2 * BLOCK_VOXELS) + row_in_block), nx.crosses);
-    sample.known &= (slots[i] >= 0) & (next_slots[i] >= 0) & (first != TSDF_CHI) & (second != TSDF_CHI);
+    const vint four = GATHER_FOUR_BYTES(voxels, distances_of(slots[i]) + row_in_block + nx.in_block[0]);
+    const vint first = four << 24 >> 24;
+    vint second = four << 16 >> 24;
+    if (any_x) {
+      second = select(second, GATHER_BYTES(voxels, distances_of(next_slots[i]) + row_in_block), nx.crosses);
+    }
+    sample.known &=
+        (slots[i] >= 0) & (next_slots[i] >= 0) & (first != TSDF_CHI) & (second != TSDF_CHI);
     corner[2 * i] = TO_VFLOAT(first);
     corner[2 * i + 1] = TO_VFLOAT(second);
   }
