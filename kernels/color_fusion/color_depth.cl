@@ -2,7 +2,6 @@
 //   depth    of the depth camera, metres, 0 = none
 //   depth_C  of the colour camera, metres
 #include "shared/image.h"
-#define NO_DEPTH_BITS 0x7f7fffff  // the largest float
 
 // A work-item moves one pixel of the depth camera to the colour camera, where it covers footprint x footprint pixels;
 // the nearest wins. depth_C: float bits, NO_DEPTH_BITS before.

@@ -5,11 +5,11 @@
 //   projected   u, v in pixels, 1 / z, and 0; 1 / z is 0 for a vertex nearer than MIN_Z
 //   triangles   three vertices, counter-clockwise seen from free space
 //   drawn       numbers of the triangles that are, or were, the nearest of a pixel
-//   nearest     depth in metres a pixel; float bits as ints, whose order is the same for positive floats; FAR_BITS = none
+//   nearest     depth in metres a pixel; float bits as ints, whose order is the same for positive floats;
+//               NO_DEPTH_BITS = none
 #include "shared/image.h"
 
 #define MIN_Z 0.02f
-#define FAR_BITS 0x7f7fffff
 // How far, in pixels, a triangle reaches beyond its sides, so that rounding opens no gap between two of them.
 #define SEAM_PX 1e-3f
 #define SAME_DEPTH 1.00001f
@@ -121,7 +121,7 @@ __kernel void resolve_view(__global float *depth, __global float *normals, int p
   const int y = get_global_id(1);
   if (x >= camera.width) return;
   const int index = pixel_index(x, y, camera);
-  const bool missed = nearest[index] == FAR_BITS;
+  const bool missed = nearest[index] == NO_DEPTH_BITS;
   depth[index] = missed ? 0.0f : as_float(nearest[index]);
   if (missed) normals[index] = normals[index + plane] = normals[index + 2 * plane] = 0.0f;
 }

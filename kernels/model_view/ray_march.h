@@ -39,7 +39,7 @@ inline Rays make_rays(vint u, vint v, const CameraArgs camera, const TransformAr
 // Where the rays of a patch have come to.
 typedef struct {
   Rays rays;
-  ulong bins;  // of depth that hold a surface
+  TileRange tile;
   vfloat t, previous_t;
   vint previous;  // distance at previous_t
   vint active;
@@ -57,7 +57,7 @@ typedef struct {
 inline March begin_march(const Rays rays, vint active, const TileRange tile, const RayRangeArgs range) {
   March march;
   march.rays = rays;
-  march.bins = tile.bins;
+  march.tile = tile;
   march.t = march.previous_t = tile.nearest_m;
   march.previous = TSDF_CHI;
   march.active = active & (march.t < range.max_m);
@@ -81,12 +81,11 @@ inline Voxels look(const March march, const Point origin, __global const int *of
   const vint address =
       wrap(at.block_x, grid.wrapped_origin[0], n) +
       n * (wrap(at.block_y, grid.wrapped_origin[1], n) + n * wrap(at.block_z, grid.wrapped_origin[2], n));
-  const vint slot = select((vint)(-1), GATHER(vint, offsets, select((vint)(0), address, inside)), inside);
+  const vint slot = slot_at(address, inside, offsets);
   at.allocated = slot >= 0;
   const vint in_block = (x & (BLOCK_SIZE - 1)) + ((y & (BLOCK_SIZE - 1)) << BLOCK_SIZE_LOG2) +
                         ((z & (BLOCK_SIZE - 1)) << (2 * BLOCK_SIZE_LOG2));
-  const vint voxel = select((vint)(0), slot * (2 * BLOCK_VOXELS) + in_block, at.allocated);
-  at.distance = select((vint)(TSDF_CHI), GATHER_BYTES(voxels, voxel), at.allocated);
+  at.distance = select((vint)(TSDF_CHI), GATHER_BYTES(voxels, distances_of(slot) + in_block), at.allocated);
   return at;
 }
 
@@ -138,7 +137,7 @@ inline void advance(March *march, const Voxels at, const Point origin, const Gri
     next_t = select(step_out_of_block(*march, at, origin), next_t, at.allocated);
     if (!ANY(march->active & at.allocated)) {
       const float least_t = LEAST(select((vfloat)(MAXFLOAT), next_t, march->active));
-      next_t = max(next_t, next_occupied(march->bins, least_t, range));
+      next_t = max(next_t, next_occupied(march->tile.bins, least_t, range));
     }
   }
   march->previous_t = march->t;

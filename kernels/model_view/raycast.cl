@@ -107,7 +107,6 @@ __kernel void raycast(__global const int *offsets, __global const char *voxels, 
 
   for (int i = 0; i < PATCHES; ++i) {
     const int patch_x = x + i * (RAY_STRIDE * PATCH_COLUMNS);
-    const TileRange tile = tile_range(patch_x, y, nearest, occupied, camera);
     const Rays first_rays = firsts[i].rays;
     const Surface first =
         find_surface(first_rays, firsts[i].hit_t, firsts[i].hit_t > 0.0f, origin, offsets, voxels, grid);
@@ -121,7 +120,7 @@ __kernel void raycast(__global const int *offsets, __global const char *voxels, 
       const Rays rays = make_rays(column, row, camera, T_W_D, grid);
       surfaces[k] = find_beside(rays, first_rays, first, in_view, origin, offsets, voxels, grid);
       const vint missing = in_view & first.known & NOT(surfaces[k].known);
-      marches[k] = begin_march(rays, missing, tile, range);
+      marches[k] = begin_march(rays, missing, firsts[i].tile, range);
       any_missing |= missing;
     }
     if (ANY(any_missing)) {

@@ -22,13 +22,6 @@ inline AxisNeighbours axis_neighbours(vint voxel, int axis, const GridArgs grid)
   return result;
 }
 
-inline vint slot_at(vint address, vint inside, __global const int *offsets) {
-  return select((vint)(-1), GATHER(vint, offsets, select((vint)(0), address, inside)), inside);
-}
-
-// Where blocks' distances begin in the pool; of slot 0 where there is no block.
-inline vint distances_of(vint slot) { return max(slot, (vint)(0)) * (2 * BLOCK_VOXELS); }
-
 // Trilinear interpolation of the distance at p, in steps of the distance byte, and its gradient in steps a voxel.
 // known: 0 where one of the eight voxels is chi.
 typedef struct {

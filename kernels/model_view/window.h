@@ -8,3 +8,11 @@ inline vint wrap(vint block, int wrapped_origin, int blocks_per_axis) {
 }
 
 inline vint in_window(vint block, int blocks_per_axis) { return AS_VUINT(block) < (uint)blocks_per_axis; }
+
+// Slots of the blocks at the addresses; -1 where there is none, or where not `inside`.
+inline vint slot_at(vint address, vint inside, __global const int *offsets) {
+  return select((vint)(-1), GATHER(vint, offsets, select((vint)(0), address, inside)), inside);
+}
+
+// Where blocks' distances begin in the pool; of slot 0 where there is no block.
+inline vint distances_of(vint slot) { return max(slot, (vint)(0)) * (2 * BLOCK_VOXELS); }

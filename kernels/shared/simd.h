@@ -62,12 +62,9 @@ typedef SIMD_JOIN(uchar, SIMD_WIDTH) vuchar;
 #define NOT(mask) (~(mask))
 #if SIMD_WIDTH == 8
 #define LANE_INDICES ((vint)(0, 1, 2, 3, 4, 5, 6, 7))
-#define GATHER(type, p, i)                                                                           \
-  ((type)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6], \
-          (p)[(i).s7]))
-#define GATHER_FOUR_BYTES_(p, i) \
-  ((vint)(FOUR_BYTES(p, (i).s0), FOUR_BYTES(p, (i).s1), FOUR_BYTES(p, (i).s2), FOUR_BYTES(p, (i).s3), \
-          FOUR_BYTES(p, (i).s4), FOUR_BYTES(p, (i).s5), FOUR_BYTES(p, (i).s6), FOUR_BYTES(p, (i).s7)))
+#define EACH_LANE(type, of, p, i)                                                                                  \
+  ((type)(of(p, (i).s0), of(p, (i).s1), of(p, (i).s2), of(p, (i).s3), of(p, (i).s4), of(p, (i).s5), of(p, (i).s6), \
+          of(p, (i).s7)))
 inline bool any_lane(int8 mask) { return as_long(convert_char8(mask)) != 0; }
 inline float sum_lanes(float8 v) {
   const float4 a = v.lo + v.hi;
@@ -81,15 +78,10 @@ inline float least_lane(float8 v) {
 }
 #else
 #define LANE_INDICES ((vint)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
-#define GATHER(type, p, i)                                                                               \
-  ((type)((p)[(i).s0], (p)[(i).s1], (p)[(i).s2], (p)[(i).s3], (p)[(i).s4], (p)[(i).s5], (p)[(i).s6],     \
-          (p)[(i).s7], (p)[(i).s8], (p)[(i).s9], (p)[(i).sa], (p)[(i).sb], (p)[(i).sc], (p)[(i).sd],     \
-          (p)[(i).se], (p)[(i).sf]))
-#define GATHER_FOUR_BYTES_(p, i) \
-  ((vint)(FOUR_BYTES(p, (i).s0), FOUR_BYTES(p, (i).s1), FOUR_BYTES(p, (i).s2), FOUR_BYTES(p, (i).s3), \
-          FOUR_BYTES(p, (i).s4), FOUR_BYTES(p, (i).s5), FOUR_BYTES(p, (i).s6), FOUR_BYTES(p, (i).s7), \
-          FOUR_BYTES(p, (i).s8), FOUR_BYTES(p, (i).s9), FOUR_BYTES(p, (i).sa), FOUR_BYTES(p, (i).sb), \
-          FOUR_BYTES(p, (i).sc), FOUR_BYTES(p, (i).sd), FOUR_BYTES(p, (i).se), FOUR_BYTES(p, (i).sf)))
+#define EACH_LANE(type, of, p, i)                                                                                  \
+  ((type)(of(p, (i).s0), of(p, (i).s1), of(p, (i).s2), of(p, (i).s3), of(p, (i).s4), of(p, (i).s5), of(p, (i).s6), \
+          of(p, (i).s7), of(p, (i).s8), of(p, (i).s9), of(p, (i).sa), of(p, (i).sb), of(p, (i).sc), of(p, (i).sd), \
+          of(p, (i).se), of(p, (i).sf)))
 inline bool any_lane(int16 mask) {
   const long2 lanes = as_long2(convert_char16(mask));
   return (lanes.x | lanes.y) != 0;
@@ -107,6 +99,8 @@ inline float least_lane(float16 v) {
   return min(c.x, c.y);
 }
 #endif
+#define ELEMENT(pointer, i) ((pointer)[i])
+#define GATHER(type, pointer, i) EACH_LANE(type, ELEMENT, pointer, i)
 // Signed bytes, as integers. A gather of words and shifts are faster on CPUs than one of bytes.
 #define GATHER_BYTES(pointer, i) \
   (GATHER(vint, (__global const int *)(pointer), (i) >> 2) << (24 - (((i) & 3) << 3)) >> 24)
@@ -115,7 +109,7 @@ typedef struct __attribute__((packed)) {
   int word;
 } UnalignedInt;
 #define FOUR_BYTES(pointer, i) (((__global const UnalignedInt *)((pointer) + (i)))->word)
-#define GATHER_FOUR_BYTES(pointer, i) GATHER_FOUR_BYTES_(pointer, i)
+#define GATHER_FOUR_BYTES(pointer, i) EACH_LANE(vint, FOUR_BYTES, pointer, i)
 #define SUM_LANES(v) sum_lanes(v)
 #define LEAST(v) least_lane(v)
 // Every other lane of the two vectors one after the other.

@@ -39,6 +39,9 @@
 #define DEPTH_TILE 16
 #define RANGE_TILE 8
 
+// Bits of the largest float: no depth yet, where the nearest is looked for by their order as integers.
+#define NO_DEPTH_BITS 0x7f7fffff
+
 // Bins of depth in which a tile's rays may hit, a bit each.
 #define DEPTH_BINS 64
 

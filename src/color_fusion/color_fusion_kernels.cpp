@@ -8,8 +8,6 @@
 namespace depth_fusion {
 namespace {
 
-constexpr int kNoDepthBits = 0x7f7fffff;  // the largest float
-
 // Pixels of the colour camera that a pixel of the depth camera covers, along an axis.
 int footprint(const CameraIntrinsics& camera, const CameraIntrinsics& color_camera) {
   return static_cast<int>(std::ceil(color_camera.fx / camera.fx)) + 1;
@@ -29,7 +27,7 @@ ColorFusion::Kernels::Kernels(ComputeContext& compute, const MapParameters& map)
 void ColorFusion::Kernels::moveDepth(const DepthLevel& depth, DeviceBuffer& depth_C,
                                      const CameraIntrinsics& color_camera, const Pose& T_C_D) {
   const CameraIntrinsics& camera = depth.camera;
-  depth_C.fill(kNoDepthBits, depth_C.bytes());
+  depth_C.fill(NO_DEPTH_BITS, depth_C.bytes());
   splat_.run2d(camera.width, camera.height, depth.depth, depth_C, toArgs(camera), toArgs(color_camera),
                toArgs(T_C_D), footprint(camera, color_camera));
   const int elements = static_cast<int>(planeElements(color_camera));

@@ -4,6 +4,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "geometry/kernel_args.h"
+#include "shared/types.h"
 
 namespace depth_fusion {
 namespace {
@@ -13,7 +14,6 @@ constexpr size_t kMaxBatchBlocks = 3072;
 constexpr size_t kMembersPerCore = 8;   // at most: itself and the seven blocks beyond its far sides
 constexpr size_t kProjectedBytes = 16;  // a vertex
 constexpr int kNoPlace = -1;
-constexpr int kFarFloatBits = 0x7f7fffff;  // the largest float
 
 }  // namespace
 
@@ -36,7 +36,7 @@ MeshRenderer::MeshRenderer(ComputeContext& compute, BlockSparseMap& map, const C
 
 void MeshRenderer::render(ModelView& view, float min_range_m, float max_range_m, StageTimers& timers) {
   const Range range{min_range_m, max_range_m};
-  nearest_.fill(kFarFloatBits, nearest_.bytes());
+  nearest_.fill(NO_DEPTH_BITS, nearest_.bytes());
   std::vector<int> slots;
   {
     const StageTimers::Scope timer(timers, "model_view/list_blocks");

@@ -11,7 +11,6 @@
 namespace depth_fusion {
 namespace {
 
-constexpr int kFarFloatBits = 0x7f7fffff;  // the largest float
 constexpr size_t kPictureBytes = 4;        // a pixel
 
 size_t pixelsOf(const CameraIntrinsics& camera) { return static_cast<size_t>(camera.width) * camera.height; }
@@ -65,7 +64,7 @@ const ModelView& ModelViewRenderer::render(const Pose& T_W_D, float min_range_m,
   const RayRangeArgs range = {min_range_m, max_range_m, DEPTH_BINS / (max_range_m - min_range_m)};
   {
     const StageTimers::Scope timer(timers, "model_view/ranges");
-    nearest_.fill(kFarFloatBits, nearest_.bytes());
+    nearest_.fill(NO_DEPTH_BITS, nearest_.bytes());
     occupied_.fill(0, occupied_.bytes());
     kernels_->splatBlockRanges(map_, nearest_, occupied_, view, range);
     compute_.finish();

@@ -125,4 +125,16 @@ inline ViewErrors compareWithSphere(const Images& view, const Pose& T_W_D, doubl
   return errors;
 }
 
+// render: from a map, a pose and the largest range to Images.
+template <class Render>
+void expectNothingOutOfRange(const Render& render) {
+  const auto map = makeMap(mapParameters(8), sphereDistance);
+  const Pose outside = lookingAt(kCentre, Eigen::Vector3d(0.0, 0.0, -1.5), 0.0);
+  EXPECT_EQ(cv::countNonZero(render(*map, outside, 1.0f).depth), 0);
+  const Pose away = lookingAt(Eigen::Vector3d(0.0, 0.0, -3.0), Eigen::Vector3d(0.0, 0.0, -1.5), 0.0);
+  const Images view = render(*map, away, kMaxRange_m);
+  EXPECT_EQ(cv::countNonZero(view.depth), 0);
+  EXPECT_EQ(cv::countNonZero(view.normals.reshape(1)), 0);
+}
+
 }  // namespace depth_fusion

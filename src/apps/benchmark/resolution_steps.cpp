@@ -15,22 +15,9 @@ namespace {
 constexpr int kBlockSize = 8;
 constexpr size_t kLargestPool_MiB = 2047;
 
-std::string dataFolder(const ResolutionOptions& options) {
-  if (!options.data.empty()) return options.data;
-  const char* folder = std::getenv("DEPTH_FUSION_DATA");
-  return folder != nullptr ? folder : "../shared/data";
-}
-
-TrackingInput room() {
-  TrackingInput input;
-  input.name = "room";
-  input.open = [] { return std::make_unique<SimulatedRecording>(SimulationOptions()); };
-  return input;
-}
-
 std::optional<TrackingInput> desk(const ResolutionOptions& options) {
   TrackingBenchmark tracking;
-  tracking.data = dataFolder(options);
+  tracking.data = dataFolder(options.data);
   tracking.cfg = options.cfg;
   tracking.inputs = {"tum_fr1_xyz"};
   if (std::filesystem::exists(tracking.data + "/tum_fr1_xyz")) return trackingInputs(tracking).front();
@@ -63,7 +50,8 @@ std::vector<TrackingInput> resolutionInputs(const ResolutionOptions& options) {
   for (const std::string& name : options.inputs) {
     check(name == "room" || name == "tum_fr1_xyz",
           "there is no input '" + name + "'; the inputs are: room, tum_fr1_xyz");
-    const std::optional<TrackingInput> input = name == "room" ? room() : desk(options);
+    const std::optional<TrackingInput> input =
+        name == "room" ? roomInput(SimulationOptions().frames) : desk(options);
     if (input) inputs.push_back(*input);
   }
   return inputs;

@@ -22,18 +22,11 @@ const std::vector<std::string> kDefaultFlags = {
     "--benchmark_min_time=0.1",    "--benchmark_display_aggregates_only=true",
     "--benchmark_out_format=json", "--benchmark_out=benchmark.json"};
 
-TrackingInput room() {
-  SimulationOptions options;
-  options.frames = 100;
-  TrackingInput input;
-  input.name = "room";
-  input.open = [options] { return std::make_unique<SimulatedRecording>(options); };
-  return input;
-}
+constexpr int kRoomFrames = 100;
 
 std::vector<TrackingInput> suiteInputs(TrackingBenchmark options) {
   const std::vector<std::string> chosen = std::exchange(options.inputs, {});
-  std::vector<TrackingInput> inputs = {room()};
+  std::vector<TrackingInput> inputs = {roomInput(kRoomFrames)};
   for (TrackingInput& input : trackingInputs(options)) {
     if (input.name == "tum_fr1_xyz" || input.name == "redkitchen") inputs.push_back(std::move(input));
   }

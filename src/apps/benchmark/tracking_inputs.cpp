@@ -51,12 +51,6 @@ TrackingInput withInterruption(TrackingInput input, const std::string& what, con
   return input;
 }
 
-std::string dataFolder(const TrackingBenchmark& options) {
-  if (!options.data.empty()) return options.data;
-  const char* folder = std::getenv("DEPTH_FUSION_DATA");
-  return folder != nullptr ? folder : "../shared/data";
-}
-
 std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
   const TrackingInput white_room = simulated("white_room", "white_room");
   std::vector<TrackingInput> inputs = {simulated("wall", "wall"),
@@ -66,7 +60,7 @@ std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
                                        withInterruption(white_room, "_jump", {0, 50}),
                                        simulated("room_fast", "room", 0.5, 60.0)};
   const std::string kinect = options.cfg + "/kinect_v1.yaml";
-  const std::string data = dataFolder(options);
+  const std::string data = dataFolder(options.data);
   const std::string tum = data + "/tum_fr1_xyz", kitchen = data + "/redkitchen";
   if (std::filesystem::exists(tum)) {
     const TrackingInput desk = recorded("tum_fr1_xyz", tum, kinect, options.cfg + "/cameras/tum_freiburg1.yaml");
@@ -81,6 +75,21 @@ std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
 }
 
 }  // namespace
+
+std::string dataFolder(const std::string& chosen) {
+  if (!chosen.empty()) return chosen;
+  const char* folder = std::getenv("DEPTH_FUSION_DATA");
+  return folder != nullptr ? folder : "../shared/data";
+}
+
+TrackingInput roomInput(int frames) {
+  SimulationOptions options;
+  options.frames = frames;
+  TrackingInput input;
+  input.name = "room";
+  input.open = [options] { return std::make_unique<SimulatedRecording>(options); };
+  return input;
+}
 
 std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options) {
   std::vector<TrackingInput> all = allInputs(options);

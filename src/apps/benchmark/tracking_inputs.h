@@ -14,6 +14,12 @@ struct TrackingInput {
   PipelineParameters parameters;
 };
 
+// `chosen`, or $DEPTH_FUSION_DATA, or ../shared/data.
+std::string dataFolder(const std::string& chosen);
+
+// The simulated room, without its truth.
+TrackingInput roomInput(int frames);
+
 // Those of options.inputs, or all. Throws Error for a name that is not known.
 std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options);
 
