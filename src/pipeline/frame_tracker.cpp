@@ -36,12 +36,16 @@ void FrameTracker::setParameters(const PipelineParameters& parameters) {
   parameters_ = withinSensorRange(parameters);
 }
 
-TrackingResult FrameTracker::track(const RgbdFrame& frame, const TextureOdometryResult& motion,
-                                   const FrameFeatures& features, const ModelView* view, StageTimers& timers,
-                                   const Pose& start) {
+MotionPrior FrameTracker::prepare(const RgbdFrame& frame, const TextureOdometryResult& motion, StageTimers& timers) {
   const MotionPrior prior = predict(frame.stamp_s, motion);
-  const DepthFrame& depth = preprocess(frame, timers);
+  preprocess(frame, timers);
+  return prior;
+}
+
+TrackingResult FrameTracker::track(const RgbdFrame& frame, const MotionPrior& prior, const FrameFeatures& features,
+                                   const ModelView* view, StageTimers& timers, const Pose& start) {
   if (view == nullptr) return begin(frame, start);
+  const DepthFrame& depth = *preprocessor_.result();
   TrackingResult result;
   if (tracked_) result = tracker_.track(depth, *view, prior, timers);
   return result.status == TrackingStatus::kLost ? relocalise(depth, features, prior, result, timers) : result;
@@ -83,11 +87,10 @@ MotionPrior FrameTracker::predict(double stamp_s, const TextureOdometryResult& m
   return prior;
 }
 
-const DepthFrame& FrameTracker::preprocess(const RgbdFrame& frame, StageTimers& timers) {
+void FrameTracker::preprocess(const RgbdFrame& frame, StageTimers& timers) {
   const StageTimers::Scope timer(timers, "preprocessing");
-  const DepthFrame& depth = preprocessor_.process(frame, velocity_);
+  preprocessor_.process(frame, velocity_);
   compute_.finish();
-  return depth;
 }
 
 TrackingResult FrameTracker::begin(const RgbdFrame& frame, const Pose& start) const {

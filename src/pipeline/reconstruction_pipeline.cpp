@@ -8,25 +8,33 @@ ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const Pi
       map_(compute, parameters.map),
       odometry_(parameters.texture_odometry),
       mapper_(compute, map_, parameters, camera),
-      tracker_(compute, parameters, camera,
+      tracking_queue_(compute.anotherQueue()),
+      tracker_(*tracking_queue_, parameters, camera,
                [this](const Pose& T_W_D) -> const ModelView& { return mapper_.render(T_W_D, timers_); }) {
   parameters_.map = map_.parameters();
 }
 
 FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const RgbdFrame* next) {
   const StageTimers::Scope timer(timers_, "frame");
+  const PreparedFrame prepared = prepared_.valid() ? prepared_.get() : prepare(frame);
+  timers_.append(prepared.timers);
+  if (next != nullptr) textured_ = std::async(std::launch::async, [this, after = *next] { return findMotion(after); });
   FrameResult result;
-  const TexturedFrame textured = next_.valid() ? next_.get() : findMotion(frame);
-  if (next != nullptr) next_ = std::async(std::launch::async, [this, after = *next] { return findMotion(after); });
-  if (parameters_.texture_odometry.enabled) timers_.record("texture_odometry", textured.milliseconds);
-  result.tracking = tracker_.track(frame, textured.motion, textured.features, view_, timers_);
-  if (result.tracking.status != TrackingStatus::kLost) fuse(frame, result);
-  if (result.tracking.status == TrackingStatus::kLost) {
+  result.tracking = tracker_.track(frame, prepared.prior, prepared.features, view_, timers_);
+  const std::shared_ptr<const DepthFrame> depth = tracker_.depth();
+  const bool tracked = result.tracking.status != TrackingStatus::kLost;
+  if (tracked) {
+    tracker_.accept(frame, prepared.features, result.tracking.T_W_D);
+  } else {
     tracker_.reject();
-    return result;
   }
-  tracker_.accept(frame, textured.features, result.tracking.T_W_D);
-  view_ = &mapper_.render(result.tracking.T_W_D, timers_);
+  if (next != nullptr) prepared_ = std::async(std::launch::async, [this, after = *next] { return prepare(after); });
+  if (tracked) {
+    fuse(frame, *depth, result);
+    if (result.fused()) view_ = &mapper_.render(result.tracking.T_W_D, timers_);
+  }
+  if (next != nullptr) prepared_.wait();
+  if (tracked && !result.fused()) withdraw();
   return result;
 }
 
@@ -36,8 +44,16 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   result.tracking.status = TrackingStatus::kTracking;
   result.tracking.T_W_D = T_W_D;
   tracker_.follow(frame, T_W_D, timers_);
-  fuse(frame, result);
+  fuse(frame, *tracker_.depth(), result);
   return result;
+}
+
+void ReconstructionPipeline::withdraw() {
+  if (view_ == nullptr) {
+    tracker_.reset();
+  } else {
+    tracker_.reject();
+  }
 }
 
 ReconstructionPipeline::TexturedFrame ReconstructionPipeline::findMotion(const RgbdFrame& frame) {
@@ -46,18 +62,22 @@ ReconstructionPipeline::TexturedFrame ReconstructionPipeline::findMotion(const R
     textured.motion.reason = textured.features.reason = "texture_odometry/enabled is false";
     return textured;
   }
-  StageTimers timers;
   {
-    const StageTimers::Scope timer(timers, "texture_odometry");
+    const StageTimers::Scope timer(textured.timers, "texture_odometry");
     textured.motion = odometry_.process(frame);
-    textured.features = odometry_.previous();
   }
-  textured.milliseconds = timers.samplesMs().begin()->second.front();
+  textured.features = odometry_.previous();
   return textured;
 }
 
-void ReconstructionPipeline::fuse(const RgbdFrame& frame, FrameResult& result) {
-  const MappingResult mapping = mapper_.fuse(frame, *tracker_.depth(), result.tracking.T_W_D, timers_);
+ReconstructionPipeline::PreparedFrame ReconstructionPipeline::prepare(const RgbdFrame& frame) {
+  PreparedFrame prepared{textured_.valid() ? textured_.get() : findMotion(frame), {}};
+  prepared.prior = tracker_.prepare(frame, prepared.motion, prepared.timers);
+  return prepared;
+}
+
+void ReconstructionPipeline::fuse(const RgbdFrame& frame, const DepthFrame& depth, FrameResult& result) {
+  const MappingResult mapping = mapper_.fuse(frame, depth, result.tracking.T_W_D, timers_);
   result.fusion = mapping.fusion;
   result.color = mapping.color;
   if (mapping.fused()) return;

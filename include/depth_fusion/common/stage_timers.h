@@ -29,6 +29,13 @@ class StageTimers {
   };
 
   void record(const std::string& stage, double milliseconds) { samples_ms_[stage].push_back(milliseconds); }
+  // Records the samples of others.
+  void append(const StageTimers& others) {
+    for (const auto& [stage, samples] : others.samples_ms_) {
+      std::vector<double>& all = samples_ms_[stage];
+      all.insert(all.end(), samples.begin(), samples.end());
+    }
+  }
   const std::map<std::string, std::vector<double>>& samplesMs() const { return samples_ms_; }
   void clear() { samples_ms_.clear(); }
 

@@ -19,11 +19,14 @@ class FrameTracker {
 
   // For the frames to come. Throws Error if they do not fit together.
   void setParameters(const PipelineParameters& parameters);
-  // The frame's pose by its depth against `view`, the model view of the last fused frame (null before the first one: then
-  // the frame gets the pose `start`). `motion` is that of `features`, the frame's, against the frame before. A lost
-  // frame and those after it are tried against keyframes and against the last pose, until one fits. Every result
-  // is to be answered by accept or reject.
-  TrackingResult track(const RgbdFrame& frame, const TextureOdometryResult& motion, const FrameFeatures& features,
+  // The first half of tracking, which needs no map: where the frame's texture, by its `motion` against the frame before,
+  // says that the sensor is (the last pose without one), and preprocessing. Follows the answer to the frame before.
+  MotionPrior prepare(const RgbdFrame& frame, const TextureOdometryResult& motion, StageTimers& timers);
+  // The prepared frame's pose by its depth against `view`, the model view of the last fused frame (null before the first
+  // one: then the frame gets the pose `start`). `features` are those of its texture. A lost frame and those after it are
+  // tried against keyframes and against the last pose, until one fits. Every result is to be answered by accept or
+  // reject.
+  TrackingResult track(const RgbdFrame& frame, const MotionPrior& prior, const FrameFeatures& features,
                        const ModelView* view, StageTimers& timers, const Pose& start = Pose::Identity());
   // Takes the pose as the one that the next frame is predicted from, and the frame as a keyframe if none is near.
   void accept(const RgbdFrame& frame, const FrameFeatures& features, const Pose& T_W_D);
@@ -46,7 +49,7 @@ class FrameTracker {
  private:
   // The texture's motion since the frame before; the last pose without one. Updates the velocity.
   MotionPrior predict(double stamp_s, const TextureOdometryResult& motion);
-  const DepthFrame& preprocess(const RgbdFrame& frame, StageTimers& timers);
+  void preprocess(const RgbdFrame& frame, StageTimers& timers);
   // `start`, if the frame has enough depth for the next one to be tracked against.
   TrackingResult begin(const RgbdFrame& frame, const Pose& start) const;
   // Against the model seen from where keyframes, or after a loss the prior, say that the sensor is. `lost` without one.

@@ -12,6 +12,9 @@ struct FrameResult {
   TrackingResult tracking;
   FusionResult fusion;  // all zero if the frame was not fused
   ColorFusionResult color;
+
+  // The frame left something in the map.
+  bool fused() const { return fusion.blocks_updated > 0; }
 };
 
 // Tracks and fuses frame by frame. W is the first fused frame's camera frame, or that of the given
@@ -22,7 +25,7 @@ class ReconstructionPipeline {
                          const CameraIntrinsics& camera);
 
   // A lost frame changes nothing in the map. `next` is the frame that the next call is for, if it is there already: its
-  // texture odometry runs on a thread of its own meanwhile.
+  // texture odometry runs beside this frame's stages, and its preprocessing beside this frame's fusion and model view.
   FrameResult processFrame(const RgbdFrame& frame, const RgbdFrame* next = nullptr);
 
   // The same with a pose from elsewhere in place of tracking; lost only if there is no depth.
@@ -38,21 +41,31 @@ class ReconstructionPipeline {
   struct TexturedFrame {
     FrameFeatures features;
     TextureOdometryResult motion;
-    double milliseconds = 0.0;
+    StageTimers timers;
+  };
+  // With where it is expected; its depth is preprocessed.
+  struct PreparedFrame : TexturedFrame {
+    MotionPrior prior;
   };
 
   TexturedFrame findMotion(const RgbdFrame& frame);
+  PreparedFrame prepare(const RgbdFrame& frame);
   // Lost if nothing could be fused.
-  void fuse(const RgbdFrame& frame, FrameResult& result);
+  void fuse(const RgbdFrame& frame, const DepthFrame& depth, FrameResult& result);
+  // Tells the tracker that a frame, which it was told is accepted, is not in the map.
+  void withdraw();
 
   PipelineParameters parameters_;
   StageTimers timers_;
   BlockSparseMap map_;
   TextureOdometry odometry_;
-  std::future<TexturedFrame> next_;  // valid if the last call was given a next frame
   Mapper mapper_;
+  std::unique_ptr<ComputeContext> tracking_queue_;
   FrameTracker tracker_;
   const ModelView* view_ = nullptr;  // of the last fused frame; none before the first
+  // Of the next frame; valid if the last call was given it.
+  std::future<TexturedFrame> textured_;
+  std::future<PreparedFrame> prepared_;
 };
 
 }  // namespace depth_fusion

@@ -326,8 +326,9 @@ TrackingResult IcpTrackingNodelet::track(const TexturedFramePtr& frame, StageTim
     return result;
   }
   const Pose start = view_ == nullptr ? pose_publisher_->startPose(frame->sensor->header) : Pose::Identity();
-  const TrackingResult result =
-      tracker_->track(frame->sensor->rgbd, frame->motion, frame->features, view_.get(), timers, start);
+  const RgbdFrame& rgbd = frame->sensor->rgbd;
+  const MotionPrior prior = tracker_->prepare(rgbd, frame->motion, timers);
+  const TrackingResult result = tracker_->track(rgbd, prior, frame->features, view_.get(), timers, start);
   if (result.status == TrackingStatus::kLost) tracker_->reject();
   return result;
 }
