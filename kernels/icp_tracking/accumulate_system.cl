@@ -1,18 +1,19 @@
 // One ICP iteration: matching, rejection and the first reduction of the point-to-plane system (the paper's section
 // "Registration"). A work-group takes one of the source's rows, every row_step-th; its sums go to
 // partial_sums[group * ICP_SUMS + i].
-//   source_*  depth and normals of the current frame, camera `source`
+//   source_*  depth and normals (shared/normal.h) of the current frame, camera `source`
 //   model_*   depth and normals of the model view, camera `model`
 // Residual r = n . (T p - q); Jacobian with respect to the twist (rotation, translation) applied on the left of T:
 // J = [(T p) x n, n].
 #include "shared/image.h"
+#include "shared/normal.h"
 #ifndef GROUP_SIZE
 #define GROUP_SIZE 1
 #endif
 
 __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate_system(
-    __global const float *source_depth, __global const float *source_normals, __global const float *model_depth,
-    __global const float *model_normals, __global float *partial_sums, CameraArgs source, CameraArgs model,
+    __global const float *source_depth, __global const uint *source_normals, __global const float *model_depth,
+    __global const uint *model_normals, __global float *partial_sums, CameraArgs source, CameraArgs model,
     TransformArgs T_M_D, SensorArgs sensor, MatchingArgs args) {
   const int group = get_group_id(0);
   const int row = group * args.row_step;
@@ -24,10 +25,8 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
   for (int x = item * SIMD_WIDTH; x < source.width; x += GROUP_SIZE * SIMD_WIDTH) {
     const int index = pixel_index(x, row, source);
     const vfloat depth = VLOAD(source_depth + index);
-    const vfloat sx = VLOAD(source_normals + index);
-    const vfloat sy = VLOAD(source_normals + index + args.source_plane);
-    const vfloat sz = VLOAD(source_normals + index + 2 * args.source_plane);
-    vint inlier = (depth > 0.0f) & (sz != 0.0f);
+    const vuint source_normal = VLOAD(source_normals + index);
+    vint inlier = (depth > 0.0f) & (source_normal != 0);
     if (!ANY(inlier)) continue;
     sums[29] += select((vfloat)(0.0f), (vfloat)(1.0f), inlier);
 
@@ -43,24 +42,23 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
 
     const vint match = select((vint)(0), pixel_indices(u, v, model), inlier);
     const vfloat qz = GATHER(vfloat, model_depth, match);
-    const vfloat nx = GATHER(vfloat, model_normals, match);
-    const vfloat ny = GATHER(vfloat, (model_normals + args.model_plane), match);
-    const vfloat nz = GATHER(vfloat, (model_normals + 2 * args.model_plane), match);
+    const Normals s = unpack_normals(source_normal);
+    const Normals n = unpack_normals(GATHER(vuint, model_normals, match));
     const vfloat dx = px - (TO_VFLOAT(u) - model.cx) / model.fx * qz;
     const vfloat dy = py - (TO_VFLOAT(v) - model.cy) / model.fy * qz;
     const vfloat dz = pz - qz;
-    const vfloat cosine = nx * rotated(T_M_D, 0, sx, sy, sz) + ny * rotated(T_M_D, 1, sx, sy, sz) +
-                          nz * rotated(T_M_D, 2, sx, sy, sz);
+    const vfloat cosine = n.x * rotated(T_M_D, 0, s.x, s.y, s.z) + n.y * rotated(T_M_D, 1, s.x, s.y, s.z) +
+                          n.z * rotated(T_M_D, 2, s.x, s.y, s.z);
     inlier = inlier & (qz > 0.0f) & (dx * dx + dy * dy + dz * dz < args.max_distance_m * args.max_distance_m) &
              (cosine > args.min_normal_cosine);
     if (!ANY(inlier)) continue;
 
-    const vfloat residual = nx * dx + ny * dy + nz * dz;
+    const vfloat residual = n.x * dx + n.y * dy + n.z * dz;
     const vfloat sigma_m = AXIAL_SIGMA_M(sensor, depth);
     const vfloat huber = min(args.huber_sigmas * sigma_m / max(fabs(residual), (vfloat)(1e-6f)), (vfloat)(1.0f));
     const vfloat weight =
         select((vfloat)(0.0f), huber * (ICP_UNIT_SIGMA_M * ICP_UNIT_SIGMA_M) / (sigma_m * sigma_m), inlier);
-    const vfloat jacobian[6] = {py * nz - pz * ny, pz * nx - px * nz, px * ny - py * nx, nx, ny, nz};
+    const vfloat jacobian[6] = {py * n.z - pz * n.y, pz * n.x - px * n.z, px * n.y - py * n.x, n.x, n.y, n.z};
     int k = 0;
     for (int i = 0; i < 6; ++i) {
       const vfloat weighted = select((vfloat)(0.0f), weight * jacobian[i], inlier);

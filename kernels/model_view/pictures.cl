@@ -3,6 +3,7 @@
 //   depth, normals  of the view (raycast.cl)
 #include "shared/color_map.h"
 #include "shared/image.h"
+#include "shared/normal.h"
 
 #define BACKGROUND ((uchar4)(38, 32, 28, 255))
 #define UNKNOWN_COLOR ((uchar4)(128, 128, 128, 255))
@@ -14,14 +15,14 @@ inline float3 point_at(int x, int y, float z, const CameraArgs camera) {
 }
 
 // A grey surface lit from the camera.
-__kernel void shade_view(__global uchar4 *picture, __global const float *depth, __global const float *normals, int plane,
+__kernel void shade_view(__global uchar4 *picture, __global const float *depth, __global const uint *normals,
                          CameraArgs camera) {
   const int x = get_global_id(0);
   const int y = get_global_id(1);
   if (x >= camera.width) return;
   const int index = pixel_index(x, y, camera);
   const float z = depth[index];
-  const float3 normal = (float3)(normals[index], normals[index + plane], normals[index + 2 * plane]);
+  const float3 normal = unpack_normal(normals[index]);
   const float towards_camera = fabs(dot(normal, normalize(point_at(x, y, 1.0f, camera))));
   const float3 shaded = SURFACE * (AMBIENT + (1.0f - AMBIENT) * towards_camera);
   picture[y * camera.width + x] = z > 0.0f ? convert_uchar4_sat_rte((float4)(shaded, 255.0f)) : BACKGROUND;

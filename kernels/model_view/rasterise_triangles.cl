@@ -8,6 +8,7 @@
 //   nearest     depth in metres a pixel; float bits as ints, whose order is the same for positive floats;
 //               NO_DEPTH_BITS = none
 #include "shared/image.h"
+#include "shared/normal.h"
 
 #define MIN_Z 0.02f
 // How far, in pixels, a triangle reaches beyond its sides, so that rounding opens no gap between two of them.
@@ -69,10 +70,12 @@ inline float depth_at(const ScreenTriangle t, float3 weights) {
   return 1.0f / clamp(inverse_z, fmin(t.a.z, fmin(t.b.z, t.c.z)), fmax(t.a.z, fmax(t.b.z, t.c.z)));
 }
 
-// Lists the triangles that were the nearest at some time: many are smaller than a pixel and cover none.
-__kernel void rasterise_depth(__global int *nearest, __global int *drawn, __global int *drawn_count,
-                              __global const float4 *projected, __global const uint *triangles, int count,
-                              CameraArgs camera, float min_range_m, float max_range_m) {
+// Lists the triangles that were the nearest at some time: many are smaller than a pixel and cover none. What they cover
+// loses its normal.
+__kernel void rasterise_depth(__global uint *normals, __global int *nearest, __global int *drawn,
+                              __global int *drawn_count, __global const float4 *projected,
+                              __global const uint *triangles, int count, CameraArgs camera, float min_range_m,
+                              float max_range_m) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const ScreenTriangle t = screen_triangle(projected, triangles, i, camera);
@@ -83,14 +86,16 @@ __kernel void rasterise_depth(__global int *nearest, __global int *drawn, __glob
       const float z = depth_at(t, weights);
       if (!covers(t, weights) || !(z >= min_range_m && z <= max_range_m)) continue;
       __global int *pixel = nearest + pixel_index(x, y, camera);
-      if (as_int(z) < *pixel) is_drawn |= as_int(z) < atomic_min(pixel, as_int(z));
+      if (as_int(z) >= *pixel || as_int(z) >= atomic_min(pixel, as_int(z))) continue;
+      atomic_xchg(normals + pixel_index(x, y, camera), 0);
+      is_drawn = true;
     }
   }
   if (is_drawn) drawn[atomic_inc(drawn_count)] = i;
 }
 
-// normals: three planes of `plane` elements, unit, in frame D
-__kernel void rasterise_normals(__global float *normals, int plane, __global const int *nearest,
+// normals: in frame D. Where triangles share an edge, the largest word stays, whichever comes first.
+__kernel void rasterise_normals(__global uint *normals, __global const int *nearest,
                                 __global const int *drawn, __global const float4 *projected,
                                 __global const float *vertices, __global const uint *triangles, int count,
                                 CameraArgs camera, TransformArgs T_D_W) {
@@ -106,22 +111,16 @@ __kernel void rasterise_normals(__global float *normals, int plane, __global con
       const float3 normal_W = weights.x * t.a.z * vload3(2 * corners.x + 1, vertices) +
                               weights.y * t.b.z * vload3(2 * corners.y + 1, vertices) +
                               weights.z * t.c.z * vload3(2 * corners.z + 1, vertices);
-      const float3 normal = normalize(rotate_point(T_D_W, normal_W));
-      normals[index] = normal.x;
-      normals[index + plane] = normal.y;
-      normals[index + 2 * plane] = normal.z;
+      atomic_max(normals + index, pack_normal(rotate_point(T_D_W, normal_W)));
     }
   }
 }
 
-// The view: `nearest` as metres; 0, and no normal, where no triangle is.
-__kernel void resolve_view(__global float *depth, __global float *normals, int plane, __global const int *nearest,
-                           CameraArgs camera) {
+// The view's depth: `nearest` as metres; 0 where no triangle is.
+__kernel void resolve_depth(__global float *depth, __global const int *nearest, CameraArgs camera) {
   const int x = get_global_id(0);
   const int y = get_global_id(1);
   if (x >= camera.width) return;
   const int index = pixel_index(x, y, camera);
-  const bool missed = nearest[index] == NO_DEPTH_BITS;
-  depth[index] = missed ? 0.0f : as_float(nearest[index]);
-  if (missed) normals[index] = normals[index + plane] = normals[index + 2 * plane] = 0.0f;
+  depth[index] = nearest[index] == NO_DEPTH_BITS ? 0.0f : as_float(nearest[index]);
 }

@@ -4,6 +4,7 @@
 // where the first one met nothing. So what is narrower than two pixels may be missing, or taken for what lies behind it.
 #include "model_view/ray_march.h"
 #include "model_view/trilinear.h"
+#include "shared/normal.h"
 #define PATCH_COLUMNS RAY_PATCH_COLUMNS(SIMD_WIDTH)
 #define PATCHES RAY_PATCHES(SIMD_WIDTH)
 #define PATCH_RAYS (RAY_STRIDE * RAY_STRIDE)
@@ -50,44 +51,49 @@ inline Surface choose(const Surface a, const Surface b, vint use_b) {
   return chosen;
 }
 
-// Stores rows of values that stand side by side in turn, of pixels with even and with odd columns.
-inline void store_rows(vfloat even, vfloat odd, int x, int y, __global float *image, const CameraArgs camera) {
+// Stores rows of words that stand side by side in turn, of pixels with even and with odd columns.
+inline void store_rows(vuint even, vuint odd, int x, int y, __global uint *image, const CameraArgs camera) {
 #if SIMD_WIDTH == 1
   if (y >= camera.height) return;
   image[pixel_index(x, y, camera)] = even;
   image[pixel_index(x + 1, y, camera)] = odd;
 #else
-  float evens[SIMD_WIDTH], odds[SIMD_WIDTH];
+  uint evens[SIMD_WIDTH], odds[SIMD_WIDTH];
   VSTORE(even, evens);
   VSTORE(odd, odds);
   for (int i = 0; i < SIMD_WIDTH / 4 && y + RAY_STRIDE * i < camera.height; ++i) {
-    const float4 a = vload4(i, evens), b = vload4(i, odds);
-    const float8 row = (float8)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3);
+    const uint4 a = vload4(i, evens), b = vload4(i, odds);
+    const uint8 row = (uint8)(a.s0, b.s0, a.s1, b.s1, a.s2, b.s2, a.s3, b.s3);
     vstore8(row, 0, image + pixel_index(x, y + RAY_STRIDE * i, camera));
   }
 #endif
 }
 
-// Component i of the normal in frame D, by the rotation's transpose.
-inline vfloat normal_component(const Surface surface, int i, const TransformArgs T_W_D) {
-  const vfloat gx = surface.gradient_x, gy = surface.gradient_y, gz = surface.gradient_z;
-  const vfloat component = T_W_D.rotation[i] * gx + T_W_D.rotation[3 + i] * gy + T_W_D.rotation[6 + i] * gz;
-  return select((vfloat)(0.0f), component * rsqrt(gx * gx + gy * gy + gz * gz), surface.known);
+// Component i of the gradient in frame D, by the rotation's transpose.
+inline vfloat gradient_component(const Surface surface, int i, const TransformArgs T_W_D) {
+  return T_W_D.rotation[i] * surface.gradient_x + T_W_D.rotation[3 + i] * surface.gradient_y +
+         T_W_D.rotation[6 + i] * surface.gradient_z;
+}
+
+inline vuint depth_bits(const Surface surface) {
+  return AS_VUINT(select((vfloat)(0.0f), surface.t, surface.known));
+}
+
+inline vuint normal_bits(const Surface surface, const TransformArgs T_W_D) {
+  const vuint normals = pack_normals(gradient_component(surface, 0, T_W_D), gradient_component(surface, 1, T_W_D),
+                                     gradient_component(surface, 2, T_W_D));
+  return select((vuint)(0), normals, AS_VUINT(surface.known));
 }
 
 inline void store_surfaces(const Surface even, const Surface odd, int x, int y, __global float *depth,
-                           __global float *normals, int plane, const CameraArgs camera,
-                           const TransformArgs T_W_D) {
-  store_rows(select((vfloat)(0.0f), even.t, even.known), select((vfloat)(0.0f), odd.t, odd.known), x, y, depth,
-             camera);
-  for (int i = 0; i < 3; ++i) {
-    store_rows(normal_component(even, i, T_W_D), normal_component(odd, i, T_W_D), x, y, normals + i * plane, camera);
-  }
+                           __global uint *normals, const CameraArgs camera, const TransformArgs T_W_D) {
+  store_rows(depth_bits(even), depth_bits(odd), x, y, (__global uint *)depth, camera);
+  store_rows(normal_bits(even, T_W_D), normal_bits(odd, T_W_D), x, y, normals, camera);
 }
 
-// depth: metres, 0 = none; normals: three planes of `plane` elements, unit, towards free space, in frame D
+// depth: metres, 0 = none; normals: towards free space, in frame D
 __kernel void raycast(__global const int *offsets, __global const char *voxels, __global const float *nearest,
-                      __global const uint *occupied, __global float *depth, __global float *normals, int plane,
+                      __global const uint *occupied, __global float *depth, __global uint *normals,
                       CameraArgs camera, TransformArgs T_W_D, GridArgs grid, RayRangeArgs range) {
   const int x = get_global_id(0) * (PATCHES * RAY_STRIDE * PATCH_COLUMNS);
   const int y = get_global_id(1) * (RAY_STRIDE * SIMD_WIDTH / PATCH_COLUMNS);
@@ -133,7 +139,7 @@ __kernel void raycast(__global const int *offsets, __global const char *voxels, 
       }
     }
     for (int k = 0; k < PATCH_RAYS; k += RAY_STRIDE) {
-      store_surfaces(surfaces[k], surfaces[k + 1], patch_x, y + k / RAY_STRIDE, depth, normals, plane, camera, T_W_D);
+      store_surfaces(surfaces[k], surfaces[k + 1], patch_x, y + k / RAY_STRIDE, depth, normals, camera, T_W_D);
     }
   }
 }

@@ -1,6 +1,7 @@
 // Depth images to clean depth in metres, pyramid and normals. Depth 0 = none. A work-item takes SIMD_WIDTH pixels of a
 // row, or one tile (max_tiles).
 #include "shared/image.h"
+#include "shared/normal.h"
 
 inline vfloat within_range(vfloat depth_m, vint x, const CameraArgs camera, const RangeArgs range) {
   const vint good = (depth_m >= range.min_range_m) & (depth_m <= range.max_range_m) & (x < camera.width);
@@ -79,15 +80,14 @@ __kernel void halve_depth(__global const float *depth, __global float *half_dept
 
 // Unit normals towards the camera from a plane fitted to the depth's 3x3 neighbours NORMAL_STEP pixels apart; 0 where a
 // neighbour is missing or the depth jumps.
-//   normals  three planes x, y, z of `plane` elements
 #define NORMAL_STEP 2
-__kernel void compute_normals(__global const float *depth, __global float *normals, CameraArgs camera, int plane,
+__kernel void compute_normals(__global const float *depth, __global uint *normals, CameraArgs camera,
                               float max_relative_step) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
   if (x >= camera.width) return;
   const int index = pixel_index(x, y, camera);
-  vfloat nx = 0.0f, ny = 0.0f, nz = 0.0f;
+  vuint normal = 0;
   if (y >= NORMAL_STEP && y < camera.height - NORMAL_STEP) {
     const vfloat z = VLOAD(depth + index);
     const vfloat limit = max_relative_step * z;
@@ -105,17 +105,10 @@ __kernel void compute_normals(__global const float *depth, __global float *norma
     dz_dv *= 1.0f / (6 * NORMAL_STEP);
     const vfloat u = TO_VFLOAT(x + LANE_INDICES) - camera.cx;
     const float v = (float)y - camera.cy;
-    nx = camera.fx * dz_du;
-    ny = camera.fy * dz_dv;
-    nz = -(z + u * dz_du + v * dz_dv);
-    const vfloat scale = rsqrt(nx * nx + ny * ny + nz * nz);
-    nx = select((vfloat)(0.0f), nx * scale, good);
-    ny = select((vfloat)(0.0f), ny * scale, good);
-    nz = select((vfloat)(0.0f), nz * scale, good);
+    const vuint fitted = pack_normals(camera.fx * dz_du, camera.fy * dz_dv, -(z + u * dz_du + v * dz_dv));
+    normal = select(normal, fitted, AS_VUINT(good));
   }
-  VSTORE(nx, normals + index);
-  VSTORE(ny, normals + index + plane);
-  VSTORE(nz, normals + index + 2 * plane);
+  VSTORE(normal, normals + index);
 }
 
 // The largest depth of each 16x16 tile.

@@ -1,9 +1,10 @@
 // How far to trust each pixel. A work-item takes SIMD_WIDTH pixels of a row.
-//   normals       three planes x, y, z of `plane` elements, 0 beside depth edges and where depth is missing
+//   normals       0 beside depth edges and where depth is missing
 //   weights       a weight a pixel, read with -DWEIGHTS; pixels whose weight is not in (0, 1] are left out
 //   measurements  a word a pixel, see types.h
 #include "shared/image.h"
 #include "shared/measurement.h"
+#include "shared/normal.h"
 
 // Across a slanted surface a lateral error is one of depth, too.
 inline vfloat accuracy_at(vfloat cosine, vfloat depth_m, const CameraArgs camera, const SensorArgs sensor) {
@@ -13,22 +14,21 @@ inline vfloat accuracy_at(vfloat cosine, vfloat depth_m, const CameraArgs camera
   return axial_m * rsqrt(axial_m * axial_m + lateral_m * lateral_m * squared_tangent);
 }
 
-__kernel void pack_measurements(__global const float *depth, __global const float *normals,
+__kernel void pack_measurements(__global const float *depth, __global const uint *normals,
                                 __global const float *weights, __global uint *measurements, CameraArgs camera,
-                                int plane, SensorArgs sensor, float depth_step_m) {
+                                SensorArgs sensor, float depth_step_m) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
   if (x >= camera.width) return;
   const int index = pixel_index(x, y, camera);
   Measurement measured;
   measured.depth_m = VLOAD(depth + index);
-  const vfloat nx = VLOAD(normals + index);
-  const vfloat ny = VLOAD(normals + index + plane);
-  const vfloat nz = VLOAD(normals + index + 2 * plane);
-  const vint smooth = nz != 0.0f;
+  const vuint normal = VLOAD(normals + index);
+  const Normals n = unpack_normals(normal);
+  const vint smooth = normal != 0;
   const vfloat ray_x = (TO_VFLOAT(x + LANE_INDICES) - camera.cx) / camera.fx;
   const float ray_y = (y - camera.cy) / camera.fy;
-  const vfloat cosine = -(nx * ray_x + ny * ray_y + nz) * rsqrt(ray_x * ray_x + (ray_y * ray_y + 1.0f));
+  const vfloat cosine = -(n.x * ray_x + n.y * ray_y + n.z) * rsqrt(ray_x * ray_x + (ray_y * ray_y + 1.0f));
   measured.cosine = select((vfloat)(1.0f), clamp(cosine, MIN_COSINE, 1.0f), smooth);
   measured.accuracy = select((vfloat)(1.0f / sensor.edge_sigmas),
                              accuracy_at(measured.cosine, measured.depth_m, camera, sensor), smooth);

@@ -39,6 +39,7 @@ typedef uchar vuchar;
 #define GATHER_FOUR_BYTES(pointer, i) as_int(vload4(0, (pointer) + (i)))
 #define SUM_LANES(v) (v)
 #define LEAST(v) (v)
+#define FIRST_LANE(v) (v)
 #define EVEN_LANES(a, b) (a)
 #define ODD_LANES(a, b) (b)
 #else
@@ -112,6 +113,7 @@ typedef struct __attribute__((packed)) {
 #define GATHER_FOUR_BYTES(pointer, i) EACH_LANE(vint, FOUR_BYTES, pointer, i)
 #define SUM_LANES(v) sum_lanes(v)
 #define LEAST(v) least_lane(v)
+#define FIRST_LANE(v) ((v).s0)
 // Every other lane of the two vectors one after the other.
 #define EVEN_LANES(a, b) ((vfloat)((a).even, (b).even))
 #define ODD_LANES(a, b) ((vfloat)((a).odd, (b).odd))

@@ -39,6 +39,13 @@
 #define DEPTH_TILE 16
 #define RANGE_TILE 8
 
+// A unit normal (x, y, z) of a pixel in a word, 0 = none: its stereographic projection from (0, 0, 1), x / (1 - z) in the low
+// and y / (1 - z) in the high 16 bits, in steps of 1 / NORMAL_STEPS from NORMAL_ZERO on; within 2e-4 rad. Normals that a
+// camera sees at up to 60 degrees beside its axis fit.
+#define NORMAL_STEPS 8191.0f
+#define NORMAL_ZERO 32768.0f
+#define NORMAL_MAX 65535.0f
+
 // Bits of the largest float: no depth yet, where the nearest is looked for by their order as integers.
 #define NO_DEPTH_BITS 0x7f7fffff
 
@@ -51,8 +58,8 @@
 #define RAY_PATCH_COLUMNS(simd_width) ((simd_width) == 1 ? 1 : 4)
 #define RAY_PATCHES(simd_width) ((simd_width) == 1 ? 1 : 4)
 
-// Images are planar, IMAGE_GUARD elements, then rows of `pitch` elements, then IMAGE_GUARD elements. Guards and the
-// columns from width on, 16 at least, hold zeros: vectors may be loaded up to 16 elements beside the image.
+// An image is IMAGE_GUARD elements, then rows of `pitch` elements, then IMAGE_GUARD elements. Guards and the columns from
+// width on, 16 at least, hold zeros: vectors may be loaded up to 16 elements beside the image.
 #define IMAGE_GUARD 16
 
 // A pinhole camera and the layout of its images.
@@ -158,8 +165,7 @@ typedef struct {
   float max_distance_m;
   float min_normal_cosine;
   float huber_sigmas;  // residual, in standard deviations of the sensor, from which a match's weight falls
-  int source_plane, model_plane;  // elements from one component of the normals to the next
-  int row_step;                   // rows of the source from one that is matched to the next
+  int row_step;        // rows of the source from one that is matched to the next
 } MatchingArgs;
 
 // A block of a batch of the surface mesh. Only the first blocks of a batch, the core, emit; the others lend them their

@@ -69,8 +69,6 @@
   MEMBER(MatchingArgs, max_distance_m)       \
   MEMBER(MatchingArgs, min_normal_cosine)    \
   MEMBER(MatchingArgs, huber_sigmas)         \
-  MEMBER(MatchingArgs, source_plane)         \
-  MEMBER(MatchingArgs, model_plane)          \
   MEMBER(MatchingArgs, row_step)             \
   STRUCT(MeshBlockArgs)                      \
   MEMBER(MeshBlockArgs, index)               \

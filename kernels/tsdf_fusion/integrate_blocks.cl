@@ -4,7 +4,7 @@
 //   visible       slots to update
 //   block_states  BLOCK_* bits a slot, 0 before
 //   measurements  a word a pixel, see types.h
-//   normals       three planes of `plane` elements, read by DISTANCE_REFINED only
+//   normals       read by DISTANCE_REFINED only
 #include "shared/block_items.h"
 #include "shared/image.h"
 #include "tsdf_fusion/block_projection.h"
@@ -40,7 +40,7 @@ inline int any_bits(vint bits) {
 
 __kernel void integrate_blocks(__global char *voxels, __global const int *visible, int visible_count,
                                __global const int4 *block_indices, __global int *block_states,
-                               __global const uint *measurements, __global const float *normals, int plane,
+                               __global const uint *measurements, __global const uint *normals,
                                CameraArgs camera, TransformArgs T_D_W, GridArgs grid, SensorArgs sensor,
                                FusionArgs args) {
   const int item = get_global_id(0);
@@ -74,7 +74,7 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
       const Measurement measured = unpack_measurement(words[i], args.depth_step_m);
       const MeasuredDistance surface =
           measured_distance(voxel_points(projection, voxel, camera), measured, ray_length, measurements, normals,
-                            plane, camera, grid.truncation_m, args.depth_step_m);
+                            camera, grid.truncation_m, args.depth_step_m);
       const vfloat steps = surface.distance_m * steps_per_m;
 
       vchar distance = ALIGNED(vchar, distances + voxel);

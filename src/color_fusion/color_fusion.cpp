@@ -65,9 +65,9 @@ struct ColorFusion::Images {
 
   Images(ComputeContext& compute, const CameraIntrinsics& color_camera)
       : camera(color_camera),
-        pixels(zeroImage(compute, camera, 1)),
-        depth_C(zeroImage(compute, camera, 1)),
-        host_rows(cv::Mat::zeros(1, static_cast<int>(planeElements(camera)), CV_8UC4)) {}
+        pixels(zeroImage(compute, camera)),
+        depth_C(zeroImage(compute, camera)),
+        host_rows(cv::Mat::zeros(1, static_cast<int>(imageElements(camera)), CV_8UC4)) {}
 
   ColorImage host() {
     cv::Mat rows(camera.height, pitchOf(camera.width), CV_8UC4, host_rows.ptr<cv::Vec4b>() + IMAGE_GUARD);

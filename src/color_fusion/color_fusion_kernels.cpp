@@ -30,7 +30,7 @@ void ColorFusion::Kernels::moveDepth(const DepthLevel& depth, DeviceBuffer& dept
   depth_C.fill(NO_DEPTH_BITS, depth_C.bytes());
   splat_.run2d(camera.width, camera.height, depth.depth, depth_C, toArgs(camera), toArgs(color_camera),
                toArgs(T_C_D), footprint(camera, color_camera));
-  const int elements = static_cast<int>(planeElements(color_camera));
+  const int elements = static_cast<int>(imageElements(color_camera));
   drop_unset_.run(elements, depth_C, elements);
 }
 

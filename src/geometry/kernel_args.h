@@ -9,8 +9,8 @@ namespace depth_fusion {
 
 inline int pitchOf(int width) { return (width + 15) / 16 * 16 + IMAGE_GUARD; }
 
-// Elements of one plane of an image.
-inline size_t planeElements(const CameraIntrinsics& camera) {
+// Elements of an image.
+inline size_t imageElements(const CameraIntrinsics& camera) {
   return static_cast<size_t>(pitchOf(camera.width)) * camera.height + 2 * IMAGE_GUARD;
 }
 

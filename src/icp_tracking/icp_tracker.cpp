@@ -60,7 +60,7 @@ std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker:
 // the lever arms of a rotation about an axis lie across it: the box's own sizes (the paper's S) would scale them wrongly.
 Eigen::AlignedBox3d spreadBox(const DepthLevel& coarsest, const Pose& T_M_D) {
   const CameraIntrinsics& camera = coarsest.camera;
-  const cv::Mat depth = readImage(coarsest.depth, camera, 1);
+  const cv::Mat depth = readImage(coarsest.depth, camera);
   double weights = 0.0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();

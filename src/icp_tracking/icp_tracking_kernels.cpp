@@ -13,9 +13,7 @@ IcpTracker::Kernels::Kernels(ComputeContext& compute)
 IcpSystem IcpTracker::Kernels::accumulateSystem(const DepthLevel& level, const ModelView& view, const Pose& T_M_D,
                                                 const MatchGates& gates,
                                                 DeviceBuffer& partial_sums) {
-  const MatchingArgs args{gates.max_distance_m, gates.min_normal_cosine, gates.huber_sigmas,
-                          static_cast<int>(planeElements(level.camera)),
-                          static_cast<int>(planeElements(view.camera)), gates.row_step};
+  const MatchingArgs args{gates.max_distance_m, gates.min_normal_cosine, gates.huber_sigmas, gates.row_step};
   const size_t rows = (level.camera.height + gates.row_step - 1) / gates.row_step;
   accumulate_.runGroups(rows, group_size_, level.depth, level.normals, view.depth, view.normals, partial_sums,
                         toArgs(level.camera), toArgs(view.camera), toArgs(T_M_D), toArgs(level.sensor), args);

@@ -30,13 +30,14 @@ MeshRenderer::MeshRenderer(ComputeContext& compute, BlockSparseMap& map, const C
       firsts_(compute, mesh_.limits().blocks * sizeof(SurfaceMeshKernels::Totals), "the numbers of a batch"),
       projected_(compute, mesh_.limits().vertices * kProjectedBytes, "projected vertices"),
       drawn_(compute, mesh_.limits().triangles * sizeof(int), "the triangles that are drawn"),
-      nearest_(compute, planeElements(camera) * sizeof(int), "the depth of triangles") {
+      nearest_(compute, imageElements(camera) * sizeof(int), "the depth of triangles") {
   places_.fill(kNoPlace, places_.bytes());
 }
 
 void MeshRenderer::render(ModelView& view, float min_range_m, float max_range_m, StageTimers& timers) {
   const Range range{min_range_m, max_range_m};
   nearest_.fill(NO_DEPTH_BITS, nearest_.bytes());
+  view.normals.fill(0, view.normals.bytes());
   std::vector<int> slots;
   {
     const StageTimers::Scope timer(timers, "model_view/list_blocks");
@@ -47,7 +48,7 @@ void MeshRenderer::render(ModelView& view, float min_range_m, float max_range_m,
     const size_t end = std::min(begin + max_cores_, slots.size());
     drawBlocks(slots.data() + begin, slots.data() + end, view, range);
   }
-  kernels_.resolveView(view, nearest_);
+  kernels_.resolveDepth(view, nearest_);
   compute_.finish();
 }
 
@@ -111,7 +112,7 @@ void MeshRenderer::rasterise(const Batch& batch, ModelView& view, const Range& r
   const int count = static_cast<int>(batch.triangles);
   kernels_.projectVertices(projected_, vertices, static_cast<int>(batch.vertices), view);
   count_.fill(0, sizeof(int));
-  kernels_.rasteriseDepth(nearest_, drawn_, count_, projected_, triangles, count, view, range.min_m,
+  kernels_.rasteriseDepth(view, nearest_, drawn_, count_, projected_, triangles, count, range.min_m,
                           range.max_m);
   kernels_.rasteriseNormals(view, nearest_, drawn_, projected_, vertices, triangles,
                             count_.read<int>(1).front());

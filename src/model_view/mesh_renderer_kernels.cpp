@@ -11,8 +11,6 @@ constexpr char kBlocks[] = "model_view/list_mesh_blocks.cl",
 
 TransformArgs fromWorld(const ModelView& view) { return toArgs(Pose(view.T_W_D.inverse())); }
 
-int planeOf(const ModelView& view) { return static_cast<int>(planeElements(view.camera)); }
-
 }  // namespace
 
 MeshRendererKernels::MeshRendererKernels(ComputeContext& compute, const MapParameters& map)
@@ -25,7 +23,7 @@ MeshRendererKernels::MeshRendererKernels(ComputeContext& compute, const MapParam
       project_(compute, kTriangles, "project_vertices"),
       depth_(compute, kTriangles, "rasterise_depth"),
       normals_(compute, kTriangles, "rasterise_normals"),
-      resolve_(compute, kTriangles, "resolve_view") {}
+      resolve_(compute, kTriangles, "resolve_depth") {}
 
 void MeshRendererKernels::listSurfaceBlocks(BlockSparseMap& map, DeviceBuffer& listed, DeviceBuffer& count,
                                             const ModelView& view, float min_range_m, float max_range_m) {
@@ -59,25 +57,24 @@ void MeshRendererKernels::projectVertices(DeviceBuffer& projected, const DeviceB
   project_.run(count, projected, vertices, count, toArgs(view.camera), fromWorld(view));
 }
 
-void MeshRendererKernels::rasteriseDepth(DeviceBuffer& nearest, DeviceBuffer& drawn,
+void MeshRendererKernels::rasteriseDepth(ModelView& view, DeviceBuffer& nearest, DeviceBuffer& drawn,
                                          DeviceBuffer& drawn_count, const DeviceBuffer& projected,
-                                         const DeviceBuffer& triangles, int count, const ModelView& view,
-                                         float min_range_m, float max_range_m) {
-  depth_.run(count, nearest, drawn, drawn_count, projected, triangles, count, toArgs(view.camera),
-             min_range_m, max_range_m);
+                                         const DeviceBuffer& triangles, int count, float min_range_m,
+                                         float max_range_m) {
+  depth_.run(count, view.normals, nearest, drawn, drawn_count, projected, triangles, count,
+             toArgs(view.camera), min_range_m, max_range_m);
 }
 
 void MeshRendererKernels::rasteriseNormals(ModelView& view, const DeviceBuffer& nearest,
                                            const DeviceBuffer& drawn, const DeviceBuffer& projected,
                                            const DeviceBuffer& vertices, const DeviceBuffer& triangles,
                                            int count) {
-  normals_.run(count, view.normals, planeOf(view), nearest, drawn, projected, vertices, triangles, count,
+  normals_.run(count, view.normals, nearest, drawn, projected, vertices, triangles, count,
                toArgs(view.camera), fromWorld(view));
 }
 
-void MeshRendererKernels::resolveView(ModelView& view, const DeviceBuffer& nearest) {
-  resolve_.run2d(view.camera.width, view.camera.height, view.depth, view.normals, planeOf(view), nearest,
-                 toArgs(view.camera));
+void MeshRendererKernels::resolveDepth(ModelView& view, const DeviceBuffer& nearest) {
+  resolve_.run2d(view.camera.width, view.camera.height, view.depth, nearest, toArgs(view.camera));
 }
 
 }  // namespace depth_fusion

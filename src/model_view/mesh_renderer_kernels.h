@@ -23,13 +23,13 @@ class MeshRendererKernels {
   void projectVertices(DeviceBuffer& projected, const DeviceBuffer& vertices, int count,
                        const ModelView& view);
   // `drawn_count` is 0 before.
-  void rasteriseDepth(DeviceBuffer& nearest, DeviceBuffer& drawn, DeviceBuffer& drawn_count,
+  void rasteriseDepth(ModelView& view, DeviceBuffer& nearest, DeviceBuffer& drawn, DeviceBuffer& drawn_count,
                       const DeviceBuffer& projected, const DeviceBuffer& triangles, int count,
-                      const ModelView& view, float min_range_m, float max_range_m);
+                      float min_range_m, float max_range_m);
   void rasteriseNormals(ModelView& view, const DeviceBuffer& nearest, const DeviceBuffer& drawn,
                         const DeviceBuffer& projected, const DeviceBuffer& vertices,
                         const DeviceBuffer& triangles, int count);
-  void resolveView(ModelView& view, const DeviceBuffer& nearest);
+  void resolveDepth(ModelView& view, const DeviceBuffer& nearest);
 
  private:
   Kernel list_, place_cores_, place_lenders_, describe_, number_, clear_, project_, depth_, normals_,

@@ -23,8 +23,8 @@ size_t rangeTiles(const CameraIntrinsics& camera) {
 std::shared_ptr<ModelView> makeView(ComputeContext& compute, const CameraIntrinsics& camera) {
   auto view = std::make_shared<ModelView>();
   view->camera = camera;
-  view->depth = zeroImage(compute, camera, 1);
-  view->normals = zeroImage(compute, camera, 3);
+  view->depth = zeroImage(compute, camera);
+  view->normals = zeroImage(compute, camera);
   return view;
 }
 

@@ -26,13 +26,11 @@ void ModelViewRenderer::Kernels::raycast(BlockSparseMap& map, const DeviceBuffer
   const int rows = RAY_STRIDE * simd_width_ / RAY_PATCH_COLUMNS(simd_width_);
   raycast_.run2d((view.camera.width + columns - 1) / columns, (view.camera.height + rows - 1) / rows,
                  map.offsets(), map.voxels(), nearest, occupied, view.depth, view.normals,
-                 static_cast<int>(planeElements(view.camera)), toArgs(view.camera), toArgs(view.T_W_D),
-                 gridArgs(map), range);
+                 toArgs(view.camera), toArgs(view.T_W_D), gridArgs(map), range);
 }
 
 void ModelViewRenderer::Kernels::shadeView(const ModelView& view, DeviceBuffer& picture) {
-  shade_.run2d(view.camera.width, view.camera.height, picture, view.depth, view.normals,
-               static_cast<int>(planeElements(view.camera)), toArgs(view.camera));
+  shade_.run2d(view.camera.width, view.camera.height, picture, view.depth, view.normals, toArgs(view.camera));
 }
 
 void ModelViewRenderer::Kernels::colorView(BlockSparseMap& map, const ModelView& view,

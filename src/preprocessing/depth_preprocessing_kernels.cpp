@@ -46,16 +46,15 @@ void DepthPreprocessingKernels::halveDepth(const DepthLevel& level, DepthLevel& 
 void DepthPreprocessingKernels::computeNormals(const DeviceBuffer& depth, DeviceBuffer& normals,
                                                const CameraIntrinsics& camera, float max_relative_step) {
   normals_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, normals, toArgs(camera),
-                 static_cast<int>(planeElements(camera)), max_relative_step);
+                 max_relative_step);
 }
 
 void DepthPreprocessingKernels::packMeasurements(const DepthFrame& frame, const DeviceBuffer& weights,
                                                  DeviceBuffer& measurements) {
   const DepthLevel& level = frame.levels[0];
   Kernel& pack = weights.bytes() == 0 ? pack_ : pack_weighted_;
-  pack.run2d(vectorsAcross(level.camera, simd_width_), level.camera.height, level.depth, level.normals, weights, measurements,
-             toArgs(level.camera), static_cast<int>(planeElements(level.camera)), toArgs(level.sensor),
-             frame.depth_step_m);
+  pack.run2d(vectorsAcross(level.camera, simd_width_), level.camera.height, level.depth, level.normals,
+             weights, measurements, toArgs(level.camera), toArgs(level.sensor), frame.depth_step_m);
 }
 
 void DepthPreprocessingKernels::maxTiles(const DeviceBuffer& depth, DeviceBuffer& tiles,

@@ -39,12 +39,12 @@ const CameraIntrinsics& checked(const CameraIntrinsics& camera) {
 
 std::shared_ptr<DepthFrame> makeResult(ComputeContext& compute, CameraIntrinsics camera) {
   auto result = std::make_shared<DepthFrame>();
-  result->raw_depth = zeroImage(compute, camera, 1);
-  result->measurements = zeroImage(compute, camera, 1);
+  result->raw_depth = zeroImage(compute, camera);
+  result->measurements = zeroImage(compute, camera);
   result->max_tiles =
       DeviceBuffer(compute, sizeof(float) * tiles(camera.width) * tiles(camera.height), "depth tiles");
   for (int level = 0; level < DepthPreprocessor::kLevels; ++level) {
-    result->levels.push_back({camera, zeroImage(compute, camera, 1), zeroImage(compute, camera, 3)});
+    result->levels.push_back({camera, zeroImage(compute, camera), zeroImage(compute, camera)});
     camera = halved(camera);
   }
   return result;
@@ -88,7 +88,7 @@ DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const Preprocessin
       kernels_(std::make_unique<Kernels>(compute)) {
   const size_t pixels = static_cast<size_t>(camera.width) * camera.height;
   input_ = DeviceBuffer(compute, (pixels + 16) * sizeof(float), "the depth image");
-  skewed_depth_ = zeroImage(compute, camera, 1);
+  skewed_depth_ = zeroImage(compute, camera);
 }
 
 DepthPreprocessor::~DepthPreprocessor() = default;
@@ -143,7 +143,7 @@ void DepthPreprocessor::uploadWeights(const cv::Mat& weights) {
   check(weights.cols == camera.width && weights.rows == camera.height,
         "a map of weights is " + sizeText(weights.cols, weights.rows) + ", its depth image " +
             sizeText(camera.width, camera.height));
-  if (weights_.bytes() == 0) weights_ = zeroImage(compute_, camera, 1);
+  if (weights_.bytes() == 0) weights_ = zeroImage(compute_, camera);
   writeImage(weights_, camera, weights);
 }
 

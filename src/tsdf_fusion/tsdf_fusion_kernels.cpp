@@ -53,8 +53,7 @@ void TsdfFusion::Kernels::integrateBlocks(const DepthFrame& frame, BlockSparseMa
                                           const FusionArgs& args) {
   const DepthLevel& level = frame.levels[0];
   integrate_.run(visible_count * items_per_block_, map.voxels(), visible, visible_count, map.blockIndices(),
-                 map.blockStates(), frame.measurements, level.normals,
-                 static_cast<int>(planeElements(level.camera)), toArgs(level.camera), toArgs(T_D_W),
+                 map.blockStates(), frame.measurements, level.normals, toArgs(level.camera), toArgs(T_D_W),
                  gridArgs(map), toArgs(level.sensor), args);
 }
 

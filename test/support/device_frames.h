@@ -3,7 +3,7 @@
 
 #include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
-#include "reference/depth_preprocessing.h"
+#include "support/normal_images.h"
 
 namespace depth_fusion {
 
@@ -22,19 +22,19 @@ inline cv::Mat quantised(cv::Mat measurements) {
 inline DepthFrame frameOfDepth(ComputeContext& compute, const CameraIntrinsics& camera, const cv::Mat& depth,
                                const cv::Mat& normals, const cv::Mat& measurements) {
   DepthFrame frame;
-  frame.raw_depth = zeroImage(compute, camera, 1);
+  frame.raw_depth = zeroImage(compute, camera);
   writeImage(frame.raw_depth, camera, depth);
   const std::vector<float> tiles = reference::maxTiles(depth);
   frame.max_tiles = DeviceBuffer(compute, tiles.size() * sizeof(float), "depth tiles");
   frame.max_tiles.write(tiles);
-  frame.levels.push_back({camera, zeroImage(compute, camera, 1), zeroImage(compute, camera, 3)});
+  frame.levels.push_back({camera, zeroImage(compute, camera), zeroImage(compute, camera)});
   writeImage(frame.levels[0].depth, camera, depth);
-  writeImage(frame.levels[0].normals, camera, normals);
+  writeNormals(frame.levels[0].normals, camera, normals);
   cv::Mat words(depth.size(), CV_32SC1);
   reference::forEachPixel<int>(words, [&](int x, int y, int& word) {
     word = static_cast<int>(reference::packedMeasurement(measurements.at<cv::Vec3f>(y, x), kDepthStep_m));
   });
-  frame.measurements = zeroImage(compute, camera, 1);
+  frame.measurements = zeroImage(compute, camera);
   writeImage(frame.measurements, camera, cv::Mat(words.size(), CV_32FC1, words.data));
   frame.depth_step_m = kDepthStep_m;
   return frame;

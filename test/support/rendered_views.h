@@ -11,6 +11,7 @@
 #include "reference/map_from_distance.h"
 #include "shared/types.h"
 #include "support/map_contents.h"
+#include "support/normal_images.h"
 #include "support/test_compute.h"
 
 namespace depth_fusion {
@@ -70,7 +71,7 @@ inline Images render(BlockSparseMap& map, const Pose& T_W_D, float max_range_m =
   StageTimers timers;
   const ModelView& view = renderer.render(T_W_D, kMinRange_m, max_range_m, timers);
   EXPECT_TRUE(view.T_W_D.isApprox(T_W_D));
-  return {readImage(view.depth, kCamera, 1), readImage(view.normals, kCamera, 3)};
+  return {readImage(view.depth, kCamera), readNormals(view.normals, kCamera)};
 }
 
 inline Eigen::Vector3d rayThrough(int x, int y) {

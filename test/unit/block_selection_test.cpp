@@ -199,7 +199,7 @@ TEST(BlockSelection, ListsEveryBlockThatAFilteredFrameUpdates) {
   input.depth = noisy;
   DepthPreprocessor preprocessor(compute(), {}, kCamera);
   const DepthFrame& frame = preprocessor.process(input);
-  View view = viewOf(readImage(frame.levels[0].depth, kCamera, 1), somePose());
+  View view = viewOf(readImage(frame.levels[0].depth, kCamera), somePose());
   expectCoverage(visibleSlots(map, frame, view.T_W_D), slotsToUpdate(map, view), map.usage().blocks);
 }
 

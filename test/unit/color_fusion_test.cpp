@@ -192,7 +192,7 @@ TEST(ColorFusion, ModelViewsShowColorsAndShades) {
   pipeline.processFrame(frame, swayingPose(0));
   ModelViewRenderer renderer(compute(), pipeline.map(), kColorTestCamera);
   const ModelView& view = renderer.render(swayingPose(0), 0.3f, 5.0f, pipeline.timers());
-  cv::Mat seen = readImage(view.depth, kColorTestCamera, 1) > 0.0f;
+  cv::Mat seen = readImage(view.depth, kColorTestCamera) > 0.0f;
   cv::Mat edges;
   cv::morphologyEx(frame.depth, edges, cv::MORPH_GRADIENT, cv::Mat::ones(7, 7, CV_8U));
   const cv::Mat compared = seen & (edges < 0.05f);

@@ -9,6 +9,7 @@
 #include "geometry/kernel_args.h"
 #include "reference/depth_preprocessing.h"
 #include "support/expect_error.h"
+#include "support/normal_images.h"
 #include "support/test_compute.h"
 #include "support/test_frames.h"
 
@@ -41,10 +42,10 @@ cv::Mat busyDepth(const CameraIntrinsics& camera) {
 double largestDifference(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF); }
 
 // Elements of the image's buffer that are not 0, beside its pixels.
-long nonzeroPadding(const DeviceBuffer& image, const CameraIntrinsics& camera, int planes) {
-  const std::vector<float> elements = image.read<float>(planes * planeElements(camera));
-  const long nonzero = elements.size() - std::count(elements.begin(), elements.end(), 0.0f);
-  return nonzero - cv::countNonZero(readImage(image, camera, planes).reshape(1));
+long nonzeroPadding(const DeviceBuffer& image, const CameraIntrinsics& camera) {
+  const std::vector<uint32_t> elements = image.read<uint32_t>(imageElements(camera));
+  const long nonzero = elements.size() - std::count(elements.begin(), elements.end(), 0u);
+  return nonzero - cv::countNonZero(readImage(image, camera));
 }
 
 TEST(DepthPreprocessor, NewParametersAreThoseOfAFreshOne) {
@@ -63,7 +64,8 @@ TEST(DepthPreprocessor, NewParametersAreThoseOfAFreshOne) {
   const DepthFrame& b = fresh.process(frame);
   EXPECT_EQ(a.depth_step_m, b.depth_step_m);
   EXPECT_EQ(a.levels[0].sensor.sigma_base_m, 0.003f);
-  EXPECT_EQ(a.measurements.read<uint32_t>(planeElements(camera)), b.measurements.read<uint32_t>(planeElements(camera)));
+  EXPECT_EQ(a.measurements.read<uint32_t>(imageElements(camera)),
+            b.measurements.read<uint32_t>(imageElements(camera)));
 }
 
 TEST(DepthPreprocessor, RefusedParametersChangeNothing) {
@@ -72,7 +74,8 @@ TEST(DepthPreprocessor, RefusedParametersChangeNothing) {
   DepthPreprocessor preprocessor(compute(), parameters, camera);
   parameters.min_range_m = parameters.max_range_m;
   expectError([&] { preprocessor.setParameters(parameters, {}); }, {"preprocessing/min_range_m must be below"});
-  EXPECT_GT(cv::countNonZero(readImage(preprocessor.process(frameOf(busyDepth(camera))).raw_depth, camera, 1)), 0);
+  EXPECT_GT(cv::countNonZero(readImage(preprocessor.process(frameOf(busyDepth(camera))).raw_depth, camera)),
+            0);
 }
 
 TEST(DepthPreprocessor, MetresOfIntegers) {
@@ -85,8 +88,8 @@ TEST(DepthPreprocessor, MetresOfIntegers) {
     DepthPreprocessor preprocessor(compute(), parameters, camera);
     const DepthFrame& frame = preprocessor.process(frameOf(input, 0.0002));
     const RangeArgs range{0.0002f, parameters.min_range_m, parameters.max_range_m};
-    EXPECT_TRUE(sameImage(readImage(frame.raw_depth, camera, 1), reference::depthToMetres(input, range)));
-    EXPECT_EQ(nonzeroPadding(frame.raw_depth, camera, 1), 0);
+    EXPECT_TRUE(sameImage(readImage(frame.raw_depth, camera), reference::depthToMetres(input, range)));
+    EXPECT_EQ(nonzeroPadding(frame.raw_depth, camera), 0);
   }
 }
 
@@ -103,7 +106,7 @@ TEST(DepthPreprocessor, NoDepthWhereThereIsNoneOrOutOfRange) {
   parameters.min_range_m = 0.5f;
   parameters.max_range_m = 4.0f;
   DepthPreprocessor preprocessor(compute(), parameters, camera);
-  const cv::Mat depth = readImage(preprocessor.process(frameOf(input)).raw_depth, camera, 1);
+  const cv::Mat depth = readImage(preprocessor.process(frameOf(input)).raw_depth, camera);
   for (size_t i = 0; i < cases.size(); ++i) {
     EXPECT_EQ(depth.at<float>(7, 25 + static_cast<int>(i)), cases[i].second) << cases[i].first;
   }
@@ -116,19 +119,19 @@ TEST(DepthPreprocessor, EveryStepEqualsTheReference) {
     const CameraIntrinsics camera = cameraOfSize(width, height);
     DepthPreprocessor preprocessor(compute(), parameters, camera);
     const DepthFrame& frame = preprocessor.process(frameOf(busyDepth(camera)));
-    const cv::Mat raw = readImage(frame.raw_depth, camera, 1);
+    const cv::Mat raw = readImage(frame.raw_depth, camera);
     EXPECT_EQ(frame.max_tiles.read<float>(reference::maxTiles(raw).size()), reference::maxTiles(raw));
 
     cv::Mat expected =
         reference::filterBilateral(raw, parameters.bilateral_sigma_px, parameters.bilateral_cutoff_sigmas);
     ASSERT_EQ(frame.levels.size(), 3u);
     for (const DepthLevel& level : frame.levels) {
-      const cv::Mat depth = readImage(level.depth, level.camera, 1);
+      const cv::Mat depth = readImage(level.depth, level.camera);
       EXPECT_LT(largestDifference(depth, expected), 2e-6) << level.camera.width;
-      EXPECT_EQ(nonzeroPadding(level.depth, level.camera, 1), 0);
+      EXPECT_EQ(nonzeroPadding(level.depth, level.camera), 0);
       const cv::Mat normals = reference::computeNormals(depth, level.camera, parameters.max_relative_step);
-      EXPECT_LT(largestDifference(readImage(level.normals, level.camera, 3), normals), 1e-4);
-      EXPECT_EQ(nonzeroPadding(level.normals, level.camera, 3), 0);
+      EXPECT_LT(largestDifference(readNormals(level.normals, level.camera), normals), 2e-4);
+      EXPECT_EQ(nonzeroPadding(level.normals, level.camera), 0);
       expected = reference::halveDepth(depth, parameters.bilateral_cutoff_sigmas);
     }
   }
@@ -137,10 +140,10 @@ TEST(DepthPreprocessor, EveryStepEqualsTheReference) {
 // The device's measurements, unpacked, against the reference's; depth differs by half a step, the others by half a code.
 void expectMeasurements(const DepthFrame& frame, const cv::Mat& weights) {
   const DepthLevel& level = frame.levels[0];
-  const cv::Mat depth = readImage(level.depth, level.camera, 1);
-  const cv::Mat normals = readImage(level.normals, level.camera, 3);
+  const cv::Mat depth = readImage(level.depth, level.camera);
+  const cv::Mat normals = readNormals(level.normals, level.camera);
   cv::Mat expected = reference::measurements(depth, normals, weights, level.camera);
-  const cv::Mat words = readImage(frame.measurements, level.camera, 1);
+  const cv::Mat words = readImage(frame.measurements, level.camera);
   reference::forEachPixel<cv::Vec3f>(expected, [&](int x, int y, const cv::Vec3f& pixel) {
     uint32_t word = 0;
     std::memcpy(&word, words.ptr<float>(y, x), sizeof(word));
@@ -159,7 +162,7 @@ TEST(DepthPreprocessor, MeasurementsEqualTheReference) {
     DepthPreprocessor preprocessor(compute(), {}, camera);
     const DepthFrame& frame = preprocessor.process(frameOf(busyDepth(camera)));
     expectMeasurements(frame, cv::Mat());
-    EXPECT_EQ(nonzeroPadding(frame.measurements, camera, 1), 0);
+    EXPECT_EQ(nonzeroPadding(frame.measurements, camera), 0);
   }
 }
 
@@ -185,7 +188,7 @@ TEST(DepthPreprocessor, SensorLimitsTheRange) {
   cv::Mat depth(40, 50, CV_32FC1, cv::Scalar(range_m + 0.01));
   depth.colRange(0, 25).setTo(range_m - 0.01);
   DepthPreprocessor preprocessor(compute(), {}, camera, sensor);
-  const cv::Mat in_range = readImage(preprocessor.process(frameOf(depth)).raw_depth, camera, 1);
+  const cv::Mat in_range = readImage(preprocessor.process(frameOf(depth)).raw_depth, camera);
   EXPECT_EQ(cv::countNonZero(in_range), 25 * 40);
   EXPECT_EQ(cv::countNonZero(in_range.colRange(25, 50)), 0);
   sensor.sigma_base_m = 0.0f;
@@ -231,7 +234,7 @@ TEST(DepthPreprocessor, NormalsOfATiltedPlane) {
     const DepthFrame& frame = preprocessor.process(frameOf(depth));
     double tolerance = 0.005;  // halving bends slanted surfaces a little
     for (const DepthLevel& level : frame.levels) {
-      expectNormals(readImage(level.normals, level.camera, 3), normal, tolerance);
+      expectNormals(readNormals(level.normals, level.camera), normal, tolerance);
       tolerance *= 2.0;
     }
     expectNormals(reference::computeNormals(depth, camera, 0.05), normal, 1e-4);
@@ -246,7 +249,7 @@ TEST(DepthPreprocessor, FilterSmoothesNoiseAndKeepsEdges) {
     pixel = static_cast<float>((x < 60 ? 1.0 : 1.3) + random.gaussian(0.001));
   });
   DepthPreprocessor preprocessor(compute(), {}, camera);
-  const cv::Mat filtered = readImage(preprocessor.process(frameOf(depth)).levels[0].depth, camera, 1);
+  const cv::Mat filtered = readImage(preprocessor.process(frameOf(depth)).levels[0].depth, camera);
   for (const auto& [columns, truth_m] : {std::pair{cv::Range(0, 60), 1.0}, {cv::Range(60, 120), 1.3}}) {
     cv::Scalar mean, deviation;
     cv::meanStdDev(filtered.colRange(columns), mean, deviation);
@@ -260,8 +263,8 @@ TEST(DepthPreprocessor, ReadsAPartOfALargerImage) {
   const cv::Mat larger = busyDepth(cameraOfSize(90, 70));
   const cv::Mat part = larger(cv::Rect(13, 9, 50, 40));
   DepthPreprocessor preprocessor(compute(), {}, camera);
-  const cv::Mat of_part = readImage(preprocessor.process(frameOf(part)).levels[0].depth, camera, 1);
-  const cv::Mat of_copy = readImage(preprocessor.process(frameOf(part.clone())).levels[0].depth, camera, 1);
+  const cv::Mat of_part = readImage(preprocessor.process(frameOf(part)).levels[0].depth, camera);
+  const cv::Mat of_copy = readImage(preprocessor.process(frameOf(part.clone())).levels[0].depth, camera);
   EXPECT_TRUE(sameImage(of_part, of_copy));
 }
 

@@ -90,7 +90,7 @@ TEST_F(EveryKernel, OfPreprocessing) {
   frame.depth_unit_m = 0.001;
   frame.weights = cv::Mat();
   const DepthLevel& coarsest = preprocessor.process(frame).levels.back();
-  EXPECT_GT(cv::countNonZero(readImage(coarsest.depth, coarsest.camera, 1)), 0);
+  EXPECT_GT(cv::countNonZero(readImage(coarsest.depth, coarsest.camera)), 0);
 }
 
 TEST_F(EveryKernel, OfTrackingFusionColourAndViews) {
@@ -107,7 +107,7 @@ TEST_F(EveryKernel, OfTrackingFusionColourAndViews) {
   EXPECT_GT(cv::sum(renderer.coloredPicture())[0], 0.0);
   ModelViewRenderer mesh_renderer(compute, pipeline.map(), kCamera, {"marching_cubes"});
   const ModelView& view = mesh_renderer.render(Pose::Identity(), 0.3f, 5.0f, timers);
-  EXPECT_GT(cv::countNonZero(readImage(view.depth, kCamera, 1)), 0);
+  EXPECT_GT(cv::countNonZero(readImage(view.depth, kCamera)), 0);
   TriangleMesh mesh;
   exportSurfaceMesh(compute, pipeline.map(), mesh);
   EXPECT_FALSE(mesh.triangles.empty());

@@ -8,6 +8,7 @@
 #include "icp_tracking/icp_tracking_kernels.h"
 #include "reference/icp_system.h"
 #include "shared/types.h"
+#include "support/normal_images.h"
 #include "support/test_compute.h"
 
 namespace depth_fusion {
@@ -43,17 +44,17 @@ class Sight {
 
   reference::OrientedDepth read(int level) const {
     const DepthLevel& images = depth_.levels[level];
-    return {images.camera, readImage(images.depth, images.camera, 1),
-            readImage(images.normals, images.camera, 3)};
+    return {images.camera, readImage(images.depth, images.camera),
+            readNormals(images.normals, images.camera)};
   }
 
   // As if the map had been rendered from T_W_D.
   ModelView asView(const Pose& T_W_D) const {
     const reference::OrientedDepth images = read(0);
-    ModelView view{images.camera, T_W_D, zeroImage(compute(), images.camera, 1),
-                   zeroImage(compute(), images.camera, 3)};
+    ModelView view{images.camera, T_W_D, zeroImage(compute(), images.camera),
+                   zeroImage(compute(), images.camera)};
     writeImage(view.depth, view.camera, images.depth);
-    writeImage(view.normals, view.camera, images.normals);
+    writeNormals(view.normals, view.camera, images.normals);
     return view;
   }
 

@@ -75,19 +75,18 @@ TEST(MeshRenderer, ViewsDoNotMix) {
   const Pose T_W_D = lookingAt(kCentre, Eigen::Vector3d(0.0, 0.0, -1.0), 0.0);
   renderer.render(T_W_D, kMinRange_m, kMaxRange_m, timers);
   const std::shared_ptr<const ModelView> held = renderer.view();
-  const cv::Mat first = readImage(held->depth, kCamera, 1);
+  const cv::Mat first = readImage(held->depth, kCamera);
   const Pose away = lookingAt(Eigen::Vector3d(0.0, 0.0, -3.0), Eigen::Vector3d(0.0, 0.0, -1.5), 0.0);
   EXPECT_EQ(
-      cv::countNonZero(readImage(renderer.render(away, kMinRange_m, kMaxRange_m, timers).depth, kCamera, 1)),
-      0);
-  EXPECT_EQ(cv::norm(readImage(held->depth, kCamera, 1), first, cv::NORM_INF), 0.0);
+      cv::countNonZero(readImage(renderer.render(away, kMinRange_m, kMaxRange_m, timers).depth, kCamera)), 0);
+  EXPECT_EQ(cv::norm(readImage(held->depth, kCamera), first, cv::NORM_INF), 0.0);
   const Pose beside =
       lookingAt(kCentre + Eigen::Vector3d(0.3, 0.0, 0.0), Eigen::Vector3d(0.0, 0.0, -1.0), 0.0);
   renderer.render(beside, kMinRange_m, kMaxRange_m, timers);
   const ModelView& nothing = renderer.render(away, kMinRange_m, kMaxRange_m, timers);
-  EXPECT_EQ(cv::countNonZero(readImage(nothing.normals, kCamera, 3).reshape(1)), 0);
+  EXPECT_EQ(cv::countNonZero(readNormals(nothing.normals, kCamera).reshape(1)), 0);
   const ModelView& again = renderer.render(T_W_D, kMinRange_m, kMaxRange_m, timers);
-  EXPECT_EQ(cv::norm(readImage(again.depth, kCamera, 1), first, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(readImage(again.depth, kCamera), first, cv::NORM_INF), 0.0);
 }
 
 // A ball that is full of noise has far more triangles than a batch holds: its blocks are drawn in parts.
@@ -186,7 +185,7 @@ TEST_F(RoomByTriangles, LooksAsByRayCasting) {
     StageTimers timers;
     const ModelView& view = renderer.render(*frame.T_W_D, 0.3f, 5.0f, timers);
     views[i] = compareWithRoom(
-        {readImage(view.depth, options.intrinsics, 1), readImage(view.normals, options.intrinsics, 3)}, frame,
+        {readImage(view.depth, options.intrinsics), readNormals(view.normals, options.intrinsics)}, frame,
         recording.scene().surface);
     std::printf("%s: seen %.4f, far %.4f, median errors %.3f mm, %.2f degrees\n",
                 i == 0 ? "rays" : "triangles", views[i].seen, views[i].far, 1000.0 * views[i].median_m,

@@ -51,7 +51,7 @@ cv::Mat compensated(const cv::Mat& depth, const Vector6d& velocity, float readou
   DepthPreprocessor preprocessor(compute(), parameters, kCamera);
   RgbdFrame frame;
   frame.depth = depth;
-  return readImage(preprocessor.process(frame, velocity).raw_depth, kCamera, 1);
+  return readImage(preprocessor.process(frame, velocity).raw_depth, kCamera);
 }
 
 // Of the pixels with depth in both, away from the furniture's edges.

@@ -1,4 +1,4 @@
-// Planar float images in device memory; their layout stands in kernels/shared/types.h.
+// Images of four-byte pixels in device memory; their layout stands in kernels/shared/types.h.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,12 +9,12 @@
 namespace depth_fusion {
 
 // An image of zeros of the camera's size.
-DeviceBuffer zeroImage(ComputeContext& compute, const CameraIntrinsics& camera, int planes);
+DeviceBuffer zeroImage(ComputeContext& compute, const CameraIntrinsics& camera);
 
-// The image as CV_32F with a channel a plane.
-cv::Mat readImage(const DeviceBuffer& image, const CameraIntrinsics& camera, int planes);
+// The image as CV_32FC1; words are their bits.
+cv::Mat readImage(const DeviceBuffer& image, const CameraIntrinsics& camera);
 
-// Copies a CV_32F image with a channel a plane, of the camera's size, to the device.
-void writeImage(DeviceBuffer& image, const CameraIntrinsics& camera, const cv::Mat& channels);
+// Copies a CV_32FC1 image of the camera's size to the device.
+void writeImage(DeviceBuffer& image, const CameraIntrinsics& camera, const cv::Mat& pixels);
 
 }  // namespace depth_fusion

@@ -17,7 +17,8 @@ struct ModelView {
   CameraIntrinsics camera;
   Pose T_W_D = Pose::Identity();
   DeviceBuffer depth;    // metres, 0 = no surface
-  DeviceBuffer normals;  // three planes: unit normals towards free space in frame D, 0 = no surface
+  DeviceBuffer normals;  // unit normals towards free space in frame D, packed (kernels/shared/normal.h), 0 =
+                         // no surface
 };
 
 struct ModelViewParameters {

@@ -32,7 +32,8 @@ void validateRange(const PreprocessingParameters& parameters, const DepthSensorP
 struct DepthLevel {
   CameraIntrinsics camera;
   DeviceBuffer depth;                 // metres, 0 = none
-  DeviceBuffer normals;               // three planes: unit normals towards the camera in frame D, 0 = none
+  DeviceBuffer
+      normals;  // unit normals towards the camera in frame D, packed (kernels/shared/normal.h), 0 = none
   DepthSensorParameters sensor = {};  // the depth's noise
 };
 

@@ -32,15 +32,15 @@ std::optional<KernelCost> kernelCost(const std::string& kernel, const StageFixtu
       {"compensate_motion", {"pixel", 1.0 * width, 4 + 4, 80, 2}},
       {"filter_bilateral", {"pixel", 1.0 * width, 4 + 4, 25 * 10 + 10, 0}},
       {"halve_depth", {"pixel", 1.0 * width, 16 + 4, 20, 0}},
-      {"compute_normals", {"pixel", 1.0 * width, 4 + 12, 9 * 6 + 30, 0}},
-      {"pack_measurements", {"pixel", 1.0 * width, 16 + 4, 45, 0}},
+      {"compute_normals", {"pixel", 1.0 * width, 4 + 4, 9 * 6 + 30, 0}},
+      {"pack_measurements", {"pixel", 1.0 * width, 8 + 4, 55, 0}},
       {"max_tiles", {"pixel", DEPTH_TILE * DEPTH_TILE, 4, 1, 0}},
-      {"accumulate_system", {"pixel", row_part, 16, 150, 4}},
+      {"accumulate_system", {"pixel", row_part, 8, 170, 2}},
       {"request_blocks", {"pixel", 1, 4, 40 + 12 * band_samples, band_samples}},
       {"list_visible_blocks", {"block", 1, 16 + 4, 50, 4}},
       {"integrate_blocks", {"voxel", voxels, 2 + 2, 60, 1}},
       {"splat_block_ranges", {"block", 1, 16 + 4, 150, 4}},
-      {"raycast", {"ray", rays, 4 + 12, 150 + 15 * kRaySteps, 16 + kRaySteps / 2}},
+      {"raycast", {"ray", rays, 4 + 4, 150 + 15 * kRaySteps, 16 + kRaySteps / 2}},
       {"rate_pixels", {"pixel", 1.0 * width, 4 + 4 + 4, 25 * 4 + 20, 0}}};
   const auto cost = costs.find(kernel);
   if (cost == costs.end()) return std::nullopt;
