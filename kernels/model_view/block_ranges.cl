@@ -1,5 +1,5 @@
 // Where the rays of each tile of the view can hit, by the octants of blocks that are near the surface. A work-item projects
-// a block's.
+// those of a slot of the groups in view.
 #include "model_view/ray_ranges.h"
 #include "shared/block_map.h"
 #include "shared/image.h"
@@ -34,11 +34,12 @@ inline void splat_box(const Box box, __global int *nearest, __global uint *occup
   }
 }
 
-__kernel void splat_block_ranges(__global const int4 *block_indices, __global const int *block_states, int slots,
+__kernel void splat_block_ranges(__global const int *groups, int group_count, int slots,
+                                 __global const int4 *block_indices, __global const int *block_states,
                                  __global int *nearest, __global uint *occupied, CameraArgs camera,
                                  TransformArgs T_D_W, GridArgs grid, RayRangeArgs range) {
-  const int slot = get_global_id(0);
-  if (slot >= slots) return;
+  const int slot = slot_in_view(groups, group_count, slots);
+  if (slot < 0) return;
   const int4 index = block_indices[slot];
   const int octants = block_states[slot] & BLOCK_NEAR_SURFACE;
   if (index.w == 0 || octants == 0) return;

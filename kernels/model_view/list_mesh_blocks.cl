@@ -1,5 +1,5 @@
 // The blocks that marching cubes polygonises for a view, and batches of them: cores, which emit triangles, then the blocks
-// beyond their far sides, which lend them vertices. A work-item is one slot (list_surface_blocks), one core or one member.
+// beyond their far sides, which lend them vertices. A work-item is one slot of the groups in view (list_surface_blocks), one core or one member.
 //   members  slots of a batch, the cores first
 //   places   of each slot in the batch, or PLACE_NONE
 //   blocks   what kernels/surface_mesh needs to know of the members
@@ -10,11 +10,12 @@
 #define PLACE_CLAIMED (-2)
 
 // Blocks near the surface whose cells, which reach a voxel beyond the block, may be in the view.
-__kernel void list_surface_blocks(__global const int4 *block_indices, __global const int *block_states, int slots,
+__kernel void list_surface_blocks(__global const int *groups, int group_count, int slots,
+                                  __global const int4 *block_indices, __global const int *block_states,
                                   __global int *listed, __global int *count, CameraArgs camera, TransformArgs T_D_W,
                                   GridArgs grid, float min_range_m, float max_range_m) {
-  const int slot = get_global_id(0);
-  if (slot >= slots) return;
+  const int slot = slot_in_view(groups, group_count, slots);
+  if (slot < 0) return;
   const int4 index = block_indices[slot];
   if (index.w == 0 || !(block_states[slot] & BLOCK_NEAR_SURFACE)) return;
   const float cells_m = grid.voxel_size_m * (BLOCK_SIZE + 1);
@@ -22,14 +23,7 @@ __kernel void list_surface_blocks(__global const int4 *block_indices, __global c
   const float3 centre = transform_point(T_D_W, centre_W);
   const float radius = 0.8660254f * cells_m;
   if (centre.z + radius < min_range_m || centre.z - radius > max_range_m) return;
-  // distances from the planes through the camera and the image's sides
-  const float left = -(camera.cx + 0.5f) / camera.fx, right = (camera.width - 0.5f - camera.cx) / camera.fx;
-  const float top = -(camera.cy + 0.5f) / camera.fy, bottom = (camera.height - 0.5f - camera.cy) / camera.fy;
-  if ((left * centre.z - centre.x) > radius * sqrt(1.0f + left * left)) return;
-  if ((centre.x - right * centre.z) > radius * sqrt(1.0f + right * right)) return;
-  if ((top * centre.z - centre.y) > radius * sqrt(1.0f + top * top)) return;
-  if ((centre.y - bottom * centre.z) > radius * sqrt(1.0f + bottom * bottom)) return;
-  listed[atomic_inc(count)] = slot;
+  if (sphere_in_view(centre, radius, camera)) listed[atomic_inc(count)] = slot;
 }
 
 inline int slot_beyond(int n, int3 block, __global const int *offsets, const GridArgs grid) {

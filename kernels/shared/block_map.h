@@ -17,6 +17,14 @@ inline int block_address(int3 block, const GridArgs grid) {
   return in_window.x + n * (in_window.y + n * in_window.z);
 }
 
+// The work-item's slot of the groups in view, or -1 if it has none.
+inline int slot_in_view(__global const int *groups, int group_count, int slots) {
+  const int item = get_global_id(0);
+  if (item >= group_count * SLOTS_PER_GROUP) return -1;
+  const int slot = groups[item / SLOTS_PER_GROUP] * SLOTS_PER_GROUP + item % SLOTS_PER_GROUP;
+  return slot < slots ? slot : -1;
+}
+
 // Number of a voxel in its block.
 inline int voxel_number(int3 in_block) {
   return in_block.x + (in_block.y << BLOCK_SIZE_LOG2) + (in_block.z << (2 * BLOCK_SIZE_LOG2));

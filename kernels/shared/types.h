@@ -35,6 +35,9 @@
 #define DISTANCE_PLANE 1
 #define DISTANCE_REFINED 2
 
+// Slots, one after the other, that are looked at or left out together.
+#define SLOTS_PER_GROUP 64
+
 // Pixels per axis of the tiles with the largest depth, and with the range of the rays.
 #define DEPTH_TILE 16
 #define RANGE_TILE 8

@@ -41,13 +41,14 @@ __kernel void request_blocks(__global const float *depth, __global int *offsets,
   }
 }
 
-// A work-item tests one slot. A block is visible if the sphere around it meets the image where the measured depth,
+// A work-item tests one slot of the groups in view. A block is visible if the sphere around it meets the image where the measured depth,
 // plus the truncation, is not in front of it.
-__kernel void list_visible_blocks(__global const int4 *block_indices, __global int *block_states,
+__kernel void list_visible_blocks(__global const int *groups, int group_count, int slots,
+                                  __global const int4 *block_indices, __global int *block_states,
                                   __global const float *max_tiles, __global int *visible, __global int *count,
-                                  int slots, CameraArgs camera, TransformArgs T_D_W, GridArgs grid) {
-  const int slot = get_global_id(0);
-  if (slot >= slots) return;
+                                  CameraArgs camera, TransformArgs T_D_W, GridArgs grid) {
+  const int slot = slot_in_view(groups, group_count, slots);
+  if (slot < 0) return;
   const int4 index = block_indices[slot];
   if (index.w == 0) return;
   const float block_m = grid.voxel_size_m * BLOCK_SIZE;

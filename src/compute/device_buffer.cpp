@@ -43,6 +43,13 @@ void DeviceBuffer::write(const void* source, size_t bytes, size_t offset_bytes) 
               "clEnqueueWriteBuffer");
 }
 
+void DeviceBuffer::writeAsync(const void* source, size_t bytes) {
+  if (bytes == 0) return;
+  checkStatus(clEnqueueWriteBuffer(compute_->impl().queue(), handle_, CL_FALSE, 0, bytes, source, 0, nullptr,
+                                   nullptr),
+              "clEnqueueWriteBuffer");
+}
+
 void DeviceBuffer::read(void* destination, size_t bytes, size_t offset_bytes) const {
   if (bytes == 0) return;
   checkStatus(clEnqueueReadBuffer(compute_->impl().queue(), handle_, CL_TRUE, offset_bytes, bytes, destination,

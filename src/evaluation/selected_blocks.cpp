@@ -31,7 +31,7 @@ struct SelectedBlocks::Selection {
         requests(compute, kCapacity * sizeof(BlockRequest), "block requests"),
         count(compute, sizeof(int), "a list's length"),
         points_outside(compute, sizeof(int), "the count of surface points"),
-        kernels(compute, map.parameters()) {}
+        kernels(compute, map) {}
 };
 
 SelectedBlocks::SelectedBlocks(ComputeContext& compute, const MapParameters& map,

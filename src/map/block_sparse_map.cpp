@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "compute/kernel.h"
 #include "depth_fusion/common/error.h"
@@ -121,6 +122,7 @@ void BlockSparseMap::reset(const Eigen::Vector3d& centre_W) {
   std::iota(free_slots_.rbegin(), free_slots_.rend(), 0);
   slot_blocks_.clear();
   slot_in_use_.clear();
+  group_boxes_.clear();
   slot_bound_ = 0;
 }
 
@@ -148,6 +150,7 @@ size_t BlockSparseMap::allocate(const std::vector<BlockIndex>& blocks) {
       slot_blocks_[slot] = blocks[i];
       slot_in_use_[slot] = true;
     }
+    updateGroupBoxes(slots);
     request_transfer_.write(requests);
     if (begin < met) {
       slot_transfer_.write(slots);
@@ -169,6 +172,21 @@ void BlockSparseMap::release(const std::vector<int>& slots) {
     slot_in_use_[slot] = false;
     free_slots_.push_back(slot);
   }
+  updateGroupBoxes(slots);
+}
+
+void BlockSparseMap::updateGroupBoxes(const std::vector<int>& slots) {
+  group_boxes_.resize((slot_bound_ + SLOTS_PER_GROUP - 1) / SLOTS_PER_GROUP);
+  int last_group = -1;
+  for (const int slot : slots) {
+    const int group = slot / SLOTS_PER_GROUP;
+    if (group == std::exchange(last_group, group)) continue;
+    group_boxes_[group].setEmpty();
+    const int end = std::min((group + 1) * SLOTS_PER_GROUP, slot_bound_);
+    for (int i = group * SLOTS_PER_GROUP; i < end; ++i) {
+      if (slot_in_use_[i]) group_boxes_[group].extend(slot_blocks_[i]);
+    }
+  }
 }
 
 std::unique_ptr<BlockSparseMap> BlockSparseMap::snapshot(bool with_color) const {
@@ -184,6 +202,7 @@ std::unique_ptr<BlockSparseMap> BlockSparseMap::snapshot(bool with_color) const 
   copy->origin_ = origin_;
   copy->slot_blocks_ = slot_blocks_;
   copy->slot_in_use_ = slot_in_use_;
+  copy->group_boxes_ = group_boxes_;
   copy->slot_bound_ = slot_bound_;
   for (int slot = 0; slot < static_cast<int>(copy->capacity_); ++slot) {
     if (slot >= slot_bound_ || !slot_in_use_[slot]) copy->free_slots_.push_back(slot);

@@ -21,7 +21,7 @@ MeshRenderer::MeshRenderer(ComputeContext& compute, BlockSparseMap& map, const C
     : compute_(compute),
       map_(map),
       mesh_(compute, map, kMinCertainty, kMaxBatchBlocks),
-      kernels_(compute, map.parameters()),
+      kernels_(compute, map),
       max_cores_(std::max<size_t>(mesh_.limits().blocks / 2, 1)),
       listed_(compute, map.usage().capacity * sizeof(int), "the list of blocks in view"),
       count_(compute, sizeof(int), "a list's length"),

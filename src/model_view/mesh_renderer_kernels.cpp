@@ -13,13 +13,14 @@ TransformArgs fromWorld(const ModelView& view) { return toArgs(Pose(view.T_W_D.i
 
 }  // namespace
 
-MeshRendererKernels::MeshRendererKernels(ComputeContext& compute, const MapParameters& map)
-    : list_(compute, kBlocks, "list_surface_blocks", blockSizeOption(map)),
-      place_cores_(compute, kBlocks, "place_cores", blockSizeOption(map)),
-      place_lenders_(compute, kBlocks, "place_lenders", blockSizeOption(map)),
-      describe_(compute, kBlocks, "describe_members", blockSizeOption(map)),
-      number_(compute, kBlocks, "number_members", blockSizeOption(map)),
-      clear_(compute, kBlocks, "clear_places", blockSizeOption(map)),
+MeshRendererKernels::MeshRendererKernels(ComputeContext& compute, const BlockSparseMap& map)
+    : in_view_(compute, map),
+      list_(compute, kBlocks, "list_surface_blocks", blockSizeOption(map.parameters())),
+      place_cores_(compute, kBlocks, "place_cores", blockSizeOption(map.parameters())),
+      place_lenders_(compute, kBlocks, "place_lenders", blockSizeOption(map.parameters())),
+      describe_(compute, kBlocks, "describe_members", blockSizeOption(map.parameters())),
+      number_(compute, kBlocks, "number_members", blockSizeOption(map.parameters())),
+      clear_(compute, kBlocks, "clear_places", blockSizeOption(map.parameters())),
       project_(compute, kTriangles, "project_vertices"),
       depth_(compute, kTriangles, "rasterise_depth"),
       normals_(compute, kTriangles, "rasterise_normals"),
@@ -27,8 +28,10 @@ MeshRendererKernels::MeshRendererKernels(ComputeContext& compute, const MapParam
 
 void MeshRendererKernels::listSurfaceBlocks(BlockSparseMap& map, DeviceBuffer& listed, DeviceBuffer& count,
                                             const ModelView& view, float min_range_m, float max_range_m) {
-  list_.run(map.slotBound(), map.blockIndices(), map.blockStates(), map.slotBound(), listed, count,
-            toArgs(view.camera), fromWorld(view), gridArgs(map), min_range_m, max_range_m);
+  in_view_.list(map, view.camera, view.T_W_D.inverse(), max_range_m);
+  list_.run(in_view_.slots(), in_view_.groups(), in_view_.groupCount(), map.slotBound(), map.blockIndices(),
+            map.blockStates(), listed, count, toArgs(view.camera), fromWorld(view), gridArgs(map),
+            min_range_m, max_range_m);
 }
 
 void MeshRendererKernels::placeMembers(BlockSparseMap& map, DeviceBuffer& members, DeviceBuffer& places,

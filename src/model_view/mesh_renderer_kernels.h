@@ -3,12 +3,13 @@
 
 #include "compute/kernel.h"
 #include "depth_fusion/model_view/model_view.h"
+#include "map/slots_in_view.h"
 
 namespace depth_fusion {
 
 class MeshRendererKernels {
  public:
-  MeshRendererKernels(ComputeContext& compute, const MapParameters& map);
+  MeshRendererKernels(ComputeContext& compute, const BlockSparseMap& map);
 
   void listSurfaceBlocks(BlockSparseMap& map, DeviceBuffer& listed, DeviceBuffer& count,
                          const ModelView& view, float min_range_m, float max_range_m);
@@ -32,6 +33,7 @@ class MeshRendererKernels {
   void resolveDepth(ModelView& view, const DeviceBuffer& nearest);
 
  private:
+  SlotsInView in_view_;
   Kernel list_, place_cores_, place_lenders_, describe_, number_, clear_, project_, depth_, normals_,
       resolve_;
 };

@@ -39,14 +39,14 @@ ParameterTable ModelViewParameters::table() {
                        {"ray_casting", "marching_cubes"}}});
 }
 
-ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera,
-                                     ModelViewParameters parameters)
+ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map,
+                                     const CameraIntrinsics& camera, ModelViewParameters parameters)
     : compute_(compute),
       map_(map),
       views_([&compute, camera] { return makeView(compute, camera); }),
       nearest_(compute, rangeTiles(camera) * sizeof(float), "ray ranges"),
       occupied_(compute, rangeTiles(camera) * (DEPTH_BINS / 8), "ray ranges"),
-      kernels_(std::make_unique<Kernels>(compute, map.parameters())) {
+      kernels_(std::make_unique<Kernels>(compute, map)) {
   validate(parameters.table());
   if (parameters.renderer == "marching_cubes") mesh_renderer_ = std::make_unique<MeshRenderer>(compute, map, camera);
 }

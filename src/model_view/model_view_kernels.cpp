@@ -5,18 +5,21 @@
 
 namespace depth_fusion {
 
-ModelViewRenderer::Kernels::Kernels(ComputeContext& compute, const MapParameters& map)
-    : simd_width_(compute.impl().simd_width),
-      ranges_(compute, "model_view/block_ranges.cl", "splat_block_ranges", blockSizeOption(map)),
-      raycast_(compute, "model_view/raycast.cl", "raycast", blockSizeOption(map)),
-      shade_(compute, "model_view/pictures.cl", "shade_view", blockSizeOption(map)),
-      color_(compute, "model_view/pictures.cl", "color_view", blockSizeOption(map)) {}
+ModelViewRenderer::Kernels::Kernels(ComputeContext& compute, const BlockSparseMap& map)
+    : in_view_(compute, map),
+      simd_width_(compute.impl().simd_width),
+      ranges_(compute, "model_view/block_ranges.cl", "splat_block_ranges", blockSizeOption(map.parameters())),
+      raycast_(compute, "model_view/raycast.cl", "raycast", blockSizeOption(map.parameters())),
+      shade_(compute, "model_view/pictures.cl", "shade_view", blockSizeOption(map.parameters())),
+      color_(compute, "model_view/pictures.cl", "color_view", blockSizeOption(map.parameters())) {}
 
 void ModelViewRenderer::Kernels::splatBlockRanges(BlockSparseMap& map, DeviceBuffer& nearest,
                                                   DeviceBuffer& occupied, const ModelView& view,
                                                   const RayRangeArgs& range) {
-  ranges_.run(map.slotBound(), map.blockIndices(), map.blockStates(), map.slotBound(), nearest, occupied,
-              toArgs(view.camera), toArgs(Pose(view.T_W_D.inverse())), gridArgs(map), range);
+  const Pose T_D_W = view.T_W_D.inverse();
+  in_view_.list(map, view.camera, T_D_W, range.max_m);
+  ranges_.run(in_view_.slots(), in_view_.groups(), in_view_.groupCount(), map.slotBound(), map.blockIndices(),
+              map.blockStates(), nearest, occupied, toArgs(view.camera), toArgs(T_D_W), gridArgs(map), range);
 }
 
 void ModelViewRenderer::Kernels::raycast(BlockSparseMap& map, const DeviceBuffer& nearest,

@@ -3,13 +3,14 @@
 
 #include "compute/kernel.h"
 #include "depth_fusion/model_view/model_view.h"
+#include "map/slots_in_view.h"
 #include "shared/types.h"
 
 namespace depth_fusion {
 
 class ModelViewRenderer::Kernels {
  public:
-  Kernels(ComputeContext& compute, const MapParameters& map);
+  Kernels(ComputeContext& compute, const BlockSparseMap& map);
 
   void splatBlockRanges(BlockSparseMap& map, DeviceBuffer& nearest, DeviceBuffer& occupied,
                         const ModelView& view, const RayRangeArgs& range);
@@ -20,6 +21,7 @@ class ModelViewRenderer::Kernels {
   void colorView(BlockSparseMap& map, const ModelView& view, DeviceBuffer& picture);
 
  private:
+  SlotsInView in_view_;
   int simd_width_;
   Kernel ranges_, raycast_, shade_, color_;
 };

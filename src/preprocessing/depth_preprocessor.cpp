@@ -75,6 +75,8 @@ void validateRange(const PreprocessingParameters& parameters, const DepthSensorP
         "depth_sensor/max_sigma_m");
 }
 
+float DepthFrame::maxRange_m() const { return depth_step_m * MEASUREMENT_DEPTH_MAX; }
+
 struct DepthPreprocessor::Kernels : DepthPreprocessingKernels {
   using DepthPreprocessingKernels::DepthPreprocessingKernels;
 };

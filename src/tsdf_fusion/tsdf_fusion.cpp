@@ -92,7 +92,7 @@ TsdfFusion::TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const Fusio
       empty_(compute, map.usage().capacity * sizeof(int), "the list of empty blocks"),
       count_(compute, sizeof(int), "a list's length"),
       points_outside_(compute, sizeof(int), "the count of surface points"),
-      kernels_(std::make_unique<Kernels>(compute, map.parameters(), parameters_)) {}
+      kernels_(std::make_unique<Kernels>(compute, map, parameters_)) {}
 
 TsdfFusion::~TsdfFusion() = default;
 

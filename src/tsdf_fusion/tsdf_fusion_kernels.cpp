@@ -9,6 +9,8 @@
 namespace depth_fusion {
 namespace {
 
+constexpr char kSelection[] = "tsdf_fusion/select_blocks.cl";
+
 // In the order of the FUSION_ and DISTANCE_ constants of types.h.
 const std::vector<std::string> kRules = {"average", "weighted", "kalman"};
 const std::vector<std::string> kDistances = {"projective", "plane", "refined"};
@@ -24,14 +26,15 @@ std::string ruleOptions(const FusionParameters& parameters) {
 
 }  // namespace
 
-TsdfFusion::Kernels::Kernels(ComputeContext& compute, const MapParameters& map,
+TsdfFusion::Kernels::Kernels(ComputeContext& compute, const BlockSparseMap& map,
                              const FusionParameters& parameters)
-    : items_per_block_(itemsPerBlock(map, compute.impl().simd_width)),
-      request_(compute, "tsdf_fusion/select_blocks.cl", "request_blocks", blockSizeOption(map)),
-      visible_(compute, "tsdf_fusion/select_blocks.cl", "list_visible_blocks", blockSizeOption(map)),
+    : in_view_(compute, map),
+      items_per_block_(itemsPerBlock(map.parameters(), compute.impl().simd_width)),
+      request_(compute, kSelection, "request_blocks", blockSizeOption(map.parameters())),
+      visible_(compute, kSelection, "list_visible_blocks", blockSizeOption(map.parameters())),
       integrate_(compute, "tsdf_fusion/integrate_blocks.cl", "integrate_blocks",
-                 blockSizeOption(map) + ruleOptions(parameters)),
-      empty_(compute, "tsdf_fusion/select_blocks.cl", "list_empty_blocks", blockSizeOption(map)) {}
+                 blockSizeOption(map.parameters()) + ruleOptions(parameters)),
+      empty_(compute, kSelection, "list_empty_blocks", blockSizeOption(map.parameters())) {}
 
 void TsdfFusion::Kernels::requestBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& requests,
                                         DeviceBuffer& count, DeviceBuffer& points_outside, const Pose& T_W_D,
@@ -44,8 +47,11 @@ void TsdfFusion::Kernels::requestBlocks(const DepthFrame& frame, BlockSparseMap&
 
 void TsdfFusion::Kernels::listVisibleBlocks(const DepthFrame& frame, BlockSparseMap& map,
                                             DeviceBuffer& visible, DeviceBuffer& count, const Pose& T_D_W) {
-  visible_.run(map.slotBound(), map.blockIndices(), map.blockStates(), frame.max_tiles, visible, count,
-               map.slotBound(), toArgs(frame.levels[0].camera), toArgs(T_D_W), gridArgs(map));
+  const CameraIntrinsics& camera = frame.levels[0].camera;
+  in_view_.list(map, camera, T_D_W, frame.maxRange_m() + map.parameters().truncation_m / MIN_COSINE);
+  visible_.run(in_view_.slots(), in_view_.groups(), in_view_.groupCount(), map.slotBound(),
+               map.blockIndices(), map.blockStates(), frame.max_tiles, visible, count, toArgs(camera),
+               toArgs(T_D_W), gridArgs(map));
 }
 
 void TsdfFusion::Kernels::integrateBlocks(const DepthFrame& frame, BlockSparseMap& map,

@@ -3,6 +3,7 @@
 
 #include "compute/kernel.h"
 #include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
+#include "map/slots_in_view.h"
 #include "shared/types.h"
 
 namespace depth_fusion {
@@ -18,7 +19,7 @@ FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& m
 
 class TsdfFusion::Kernels {
  public:
-  Kernels(ComputeContext& compute, const MapParameters& map, const FusionParameters& parameters = {});
+  Kernels(ComputeContext& compute, const BlockSparseMap& map, const FusionParameters& parameters = {});
 
   void requestBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& requests,
                      DeviceBuffer& count, DeviceBuffer& points_outside, const Pose& T_W_D,
@@ -31,6 +32,7 @@ class TsdfFusion::Kernels {
                        DeviceBuffer& empty, DeviceBuffer& count);
 
  private:
+  SlotsInView in_view_;
   size_t items_per_block_;
   Kernel request_, visible_, integrate_, empty_;
 };

@@ -23,7 +23,7 @@ class BlockRequests {
  public:
   explicit BlockRequests(BlockSparseMap& map)
       : map_(map),
-        kernels_(compute(), map.parameters()),
+        kernels_(compute(), map),
         list_(compute(), kCapacity * 4 * sizeof(int), "requests"),
         count_(compute(), sizeof(int), "count"),
         points_outside_(compute(), sizeof(int), "count") {}
@@ -133,7 +133,7 @@ std::set<int> visibleSlots(BlockSparseMap& map, const DepthFrame& frame, const P
   DeviceBuffer list(compute(), map.usage().capacity * sizeof(int), "visible");
   DeviceBuffer count(compute(), sizeof(int), "count");
   count.fill(0, sizeof(int));
-  TsdfFusion::Kernels kernels(compute(), map.parameters());
+  TsdfFusion::Kernels kernels(compute(), map);
   kernels.listVisibleBlocks(frame, map, list, count, T_W_D.inverse());
   const std::vector<int> slots = list.read<int>(count.read<int>(1).front());
   EXPECT_EQ(std::set<int>(slots.begin(), slots.end()).size(), slots.size()) << "a slot is listed twice";

@@ -162,7 +162,7 @@ TEST_F(EveryKernel, OfAListOfRequestsThatIsFull) {
   DeviceBuffer count(compute, sizeof(int), "count"), points_outside(compute, sizeof(int), "count");
   count.fill(0, sizeof(int));
   points_outside.fill(0, sizeof(int));
-  TsdfFusion::Kernels(compute, map.parameters())
+  TsdfFusion::Kernels(compute, map)
       .requestBlocks(preprocessor.process(roomFrame(0)), map, requests, count, points_outside,
                      Pose::Identity(), {1, 5, kCapacity});
   EXPECT_GT(count.read<int>(1).front(), kCapacity);

@@ -128,7 +128,7 @@ TEST_P(ModelViewOfBlockSize, BlockRangesHoldEveryHit) {
   const int columns = (kCamera.width + tile - 1) / tile;
   const size_t tiles = columns * ((kCamera.height + tile - 1) / tile);
   const RayRangeArgs range = {kMinRange_m, kMaxRange_m, DEPTH_BINS / (kMaxRange_m - kMinRange_m)};
-  ModelViewRenderer::Kernels kernels(compute(), map->parameters());
+  ModelViewRenderer::Kernels kernels(compute(), *map);
   const reference::RayCaster caster(*map);
   for (const double roll_rad : {0.0, 0.7}) {
     view.T_W_D = lookingAt(Eigen::Vector3d(0.1, 0.0, 0.1), Eigen::Vector3d(-0.4, -0.35, -0.4), roll_rad);

@@ -24,6 +24,8 @@ class DeviceBuffer {
   _cl_mem* handle() const { return handle_; }
 
   void write(const void* source, size_t bytes, size_t offset_bytes = 0);
+  // Does not wait: the source stays as it is until the queue has come so far.
+  void writeAsync(const void* source, size_t bytes);
   // Waits for the work enqueued before.
   void read(void* destination, size_t bytes, size_t offset_bytes = 0) const;
   // Sets the first `bytes` to copies of a 32-bit pattern.

@@ -1,7 +1,7 @@
 // The block-sparse TSDF of the paper, section "Volumetric Scene Representation".
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <memory>
 #include <vector>
 
@@ -34,6 +34,7 @@ size_t mapBytes(const MapParameters& map, size_t blocks);
 class BlockSparseMap {
  public:
   using BlockIndex = Eigen::Vector3i;
+  using BlockBox = Eigen::AlignedBox3i;
 
   struct Usage {
     size_t blocks = 0;      // in use
@@ -77,6 +78,9 @@ class BlockSparseMap {
   // Of a slot below slotBound(): whether it is in use, and the block that it holds or held last.
   bool inUse(int slot) const { return slot_in_use_[slot]; }
   const BlockIndex& blockOf(int slot) const { return slot_blocks_[slot]; }
+  // The boxes about the blocks of SLOTS_PER_GROUP slots each, one after the other; empty where none is in
+  // use.
+  const std::vector<BlockBox>& groupBoxes() const { return group_boxes_; }
 
   // First block of the window.
   const BlockIndex& origin() const { return origin_; }
@@ -96,6 +100,9 @@ class BlockSparseMap {
   // With room for `capacity` blocks; the caller sets the contents.
   BlockSparseMap(ComputeContext& compute, const MapParameters& checked, size_t capacity);
 
+  // After a change of these slots.
+  void updateGroupBoxes(const std::vector<int>& slots);
+
   ComputeContext& compute_;
   MapParameters parameters_;
   size_t capacity_ = 0;
@@ -104,6 +111,7 @@ class BlockSparseMap {
   std::vector<int> free_slots_;
   std::vector<BlockIndex> slot_blocks_;
   std::vector<bool> slot_in_use_;
+  std::vector<BlockBox> group_boxes_;
   int slot_bound_ = 0;
   std::unique_ptr<Kernels> kernels_;
 };

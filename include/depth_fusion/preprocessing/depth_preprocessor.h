@@ -43,6 +43,9 @@ struct DepthFrame {
   DeviceBuffer measurements;       // what fusion needs of levels[0]: a word a pixel (kernels/shared/types.h)
   float depth_step_m = 0.0f;       // of the measurements
   std::vector<DepthLevel> levels;  // filtered; full size first, each half the size of the one before
+
+  // The farthest depth that measurements hold.
+  float maxRange_m() const;
 };
 
 class DepthPreprocessor {
