@@ -2,8 +2,8 @@
 // parametrised by depth t (z in frame D): p(t) = origin + t * direction, in voxels from the first voxel of the window, so that
 // the conversion to integers, which truncates, rounds down.
 #include "model_view/ray_ranges.h"
-#include "model_view/window.h"
 #include "shared/image.h"
+#include "shared/window.h"
 #define MAX_STEPS 512
 #define MAX_MARCHES 4
 

@@ -1,5 +1,5 @@
 // Trilinear interpolation of the distance. Coordinates are voxels from the first voxel of the window.
-#include "model_view/window.h"
+#include "shared/window.h"
 
 // Along one axis, of the two voxels around a coordinate: the first one's place in its block, the second's, and both their
 // blocks' in the window.

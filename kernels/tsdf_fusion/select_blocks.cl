@@ -3,42 +3,82 @@
 //   points_outside  counts the samples of the surface that lie outside of the window
 //   visible   slots of the blocks to update, in any order
 //   count     entries of the list, 0 before; may end above the list's capacity
-#include "shared/block_map.h"
 #include "shared/image.h"
+#include "shared/window.h"
 
-// A work-item samples one pixel, walks the truncation band along its ray, and claims the empty blocks it meets, each
-// with one atomic, so that a block is asked for once. A claim that finds the list full is withdrawn.
+typedef struct {
+  vint x, y, z;    // block indices
+  vint address;    // in the offsets; any where it is not `inside`
+  vint inside;     // of the window
+} Blocks;
+
+inline Blocks blocks_with(vfloat x, vfloat y, vfloat z, const GridArgs grid) {
+  const float per_block = 1.0f / (grid.voxel_size_m * BLOCK_SIZE);
+  const int n = grid.blocks_per_axis;
+  Blocks blocks;
+  blocks.x = TO_VINT(floor(x * per_block));
+  blocks.y = TO_VINT(floor(y * per_block));
+  blocks.z = TO_VINT(floor(z * per_block));
+  const vint in_x = blocks.x - grid.origin[0], in_y = blocks.y - grid.origin[1], in_z = blocks.z - grid.origin[2];
+  blocks.inside = in_window(in_x, n) & in_window(in_y, n) & in_window(in_z, n);
+  blocks.address = wrap(in_x, grid.wrapped_origin[0], n) +
+                   n * (wrap(in_y, grid.wrapped_origin[1], n) + n * wrap(in_z, grid.wrapped_origin[2], n));
+  return blocks;
+}
+
+// Each block with one atomic, so that it is asked for once. A claim that finds the list full is withdrawn.
+inline void claim(const Blocks blocks, vint wanted, __global int *offsets, __global int4 *requests,
+                  __global int *count, int capacity) {
+  int claims[SIMD_WIDTH], x[SIMD_WIDTH], y[SIMD_WIDTH], z[SIMD_WIDTH], address[SIMD_WIDTH];
+  VSTORE(wanted, claims);
+  VSTORE(blocks.x, x);
+  VSTORE(blocks.y, y);
+  VSTORE(blocks.z, z);
+  VSTORE(blocks.address, address);
+  for (int i = 0; i < SIMD_WIDTH; ++i) {
+    if (!claims[i]) continue;
+    if (atomic_cmpxchg(offsets + address[i], BLOCK_EMPTY, BLOCK_REQUESTED) != BLOCK_EMPTY) continue;
+    const int entry = atomic_inc(count);
+    if (entry < capacity) {
+      requests[entry] = (int4)(x[i], y[i], z[i], 0);
+    } else {
+      atomic_xchg(offsets + address[i], BLOCK_EMPTY);
+    }
+  }
+}
+
+// A work-item samples SIMD_WIDTH pixels of a row, walks the truncation band along their rays, and claims the empty blocks
+// it meets.
 __kernel void request_blocks(__global const float *depth, __global int *offsets, __global int4 *requests,
                              __global int *count, __global int *points_outside, CameraArgs camera,
                              TransformArgs T_W_D, GridArgs grid, SelectionArgs args) {
-  const int x = get_global_id(0) * args.stride_px + args.stride_px / 2;
-  const int y = get_global_id(1) * args.stride_px + args.stride_px / 2;
-  if (x >= camera.width || y >= camera.height) return;
-  const float z = depth[pixel_index(x, y, camera)];
-  if (!(z > 0.0f)) return;
-  if (z < args.dense_from_m && ((get_global_id(0) | get_global_id(1)) & 1)) return;
-  const float3 ray_D = (float3)((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0f);
-  const float3 ray_W = rotate_point(T_W_D, ray_D);
-  const float3 origin_W = (float3)(T_W_D.translation[0], T_W_D.translation[1], T_W_D.translation[2]);
-  const float half_band = grid.truncation_m / length(ray_D);
-  const float per_block = 1.0f / (grid.voxel_size_m * BLOCK_SIZE);
-  if (block_address(convert_int3(floor((origin_W + z * ray_W) * per_block)), grid) < 0) atomic_inc(points_outside);
-  int3 last_block = INT_MAX;
+  const int first_column = get_global_id(0) * SIMD_WIDTH;
+  const vint column = first_column + LANE_INDICES;
+  const vint x = column * args.stride_px + args.stride_px / 2;
+  const int row = get_global_id(1), y = row * args.stride_px + args.stride_px / 2;
+  if (y >= camera.height) return;
+  const vint in_image = x < camera.width;
+  const vfloat z = GATHER(vfloat, depth, pixel_indices(select((vint)(0), x, in_image), y, camera));
+  const vint sampled = in_image & (z > 0.0f) & ((z >= args.dense_from_m) | (((column | row) & 1) == 0));
+  if (!ANY(sampled)) return;
+
+  const vfloat ray_x = (TO_VFLOAT(x) - camera.cx) / camera.fx;
+  const float ray_y = (y - camera.cy) / camera.fy;
+  const vfloat ray_Wx = rotated(T_W_D, 0, ray_x, ray_y, 1.0f), ray_Wy = rotated(T_W_D, 1, ray_x, ray_y, 1.0f),
+               ray_Wz = rotated(T_W_D, 2, ray_x, ray_y, 1.0f);
+  const vfloat half_band = grid.truncation_m * rsqrt(ray_x * ray_x + (ray_y * ray_y + 1.0f));
   for (int i = 0; i < args.band_samples; ++i) {
-    const float t = z - half_band + 2.0f * half_band * i / (args.band_samples - 1);
-    const int3 block = convert_int3(floor((origin_W + t * ray_W) * per_block));
-    if (all(block == last_block)) continue;
-    last_block = block;
-    const int address = block_address(block, grid);
-    if (address < 0 || offsets[address] != BLOCK_EMPTY) continue;
-    if (atomic_cmpxchg(offsets + address, BLOCK_EMPTY, BLOCK_REQUESTED) != BLOCK_EMPTY) continue;
-    const int entry = atomic_inc(count);
-    if (entry < args.capacity) {
-      requests[entry] = (int4)(block, 0);
-    } else {
-      atomic_xchg(offsets + address, BLOCK_EMPTY);
-    }
+    const vfloat t = z + half_band * (2.0f * i / (args.band_samples - 1) - 1.0f);
+    const Blocks blocks = blocks_with(T_W_D.translation[0] + t * ray_Wx, T_W_D.translation[1] + t * ray_Wy,
+                                      T_W_D.translation[2] + t * ray_Wz, grid);
+    const vint met = sampled & blocks.inside;
+    const vint wanted = met & (GATHER(vint, offsets, select((vint)(0), blocks.address, met)) == BLOCK_EMPTY);
+    if (ANY(wanted)) claim(blocks, wanted, offsets, requests, count, args.capacity);
   }
+  const Blocks surface = blocks_with(T_W_D.translation[0] + z * ray_Wx, T_W_D.translation[1] + z * ray_Wy,
+                                     T_W_D.translation[2] + z * ray_Wz, grid);
+  const vint outside = sampled & NOT(surface.inside);
+  if (ANY(outside)) atomic_add(points_outside, (int)SUM_LANES(select((vfloat)(0.0f), (vfloat)(1.0f), outside)));
 }
 
 // A work-item tests one slot of the groups in view. A block is visible if the sphere around it meets the image where the measured depth,

@@ -29,7 +29,8 @@ std::string ruleOptions(const FusionParameters& parameters) {
 TsdfFusion::Kernels::Kernels(ComputeContext& compute, const BlockSparseMap& map,
                              const FusionParameters& parameters)
     : in_view_(compute, map),
-      items_per_block_(itemsPerBlock(map.parameters(), compute.impl().simd_width)),
+      simd_width_(compute.impl().simd_width),
+      items_per_block_(itemsPerBlock(map.parameters(), simd_width_)),
       request_(compute, kSelection, "request_blocks", blockSizeOption(map.parameters())),
       visible_(compute, kSelection, "list_visible_blocks", blockSizeOption(map.parameters())),
       integrate_(compute, "tsdf_fusion/integrate_blocks.cl", "integrate_blocks",
@@ -41,7 +42,8 @@ void TsdfFusion::Kernels::requestBlocks(const DepthFrame& frame, BlockSparseMap&
                                         const SelectionArgs& args) {
   const CameraIntrinsics& camera = frame.levels[0].camera;
   const auto samples = [&](int pixels) { return (pixels + args.stride_px - 1) / args.stride_px; };
-  request_.run2d(samples(camera.width), samples(camera.height), frame.raw_depth, map.offsets(), requests,
+  const size_t vectors = (samples(camera.width) + simd_width_ - 1) / simd_width_;
+  request_.run2d(vectors, samples(camera.height), frame.raw_depth, map.offsets(), requests,
                  count, points_outside, toArgs(camera), toArgs(T_W_D), gridArgs(map), args);
 }
 

@@ -33,6 +33,7 @@ class TsdfFusion::Kernels {
 
  private:
   SlotsInView in_view_;
+  int simd_width_;
   size_t items_per_block_;
   Kernel request_, visible_, integrate_, empty_;
 };

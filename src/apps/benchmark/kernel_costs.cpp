@@ -36,7 +36,7 @@ std::optional<KernelCost> kernelCost(const std::string& kernel, const StageFixtu
       {"pack_measurements", {"pixel", 1.0 * width, 8 + 4, 55, 0}},
       {"max_tiles", {"pixel", DEPTH_TILE * DEPTH_TILE, 4, 1, 0}},
       {"accumulate_system", {"pixel", row_part, 8, 170, 2}},
-      {"request_blocks", {"pixel", 1, 4, 40 + 12 * band_samples, band_samples}},
+      {"request_blocks", {"pixel", 1.0 * width, 4, 40 + 12 * band_samples, band_samples}},
       {"list_visible_blocks", {"block", 1, 16 + 4, 50, 4}},
       {"integrate_blocks", {"voxel", voxels, 2 + 2, 60, 1}},
       {"splat_block_ranges", {"block", 1, 16 + 4, 150, 4}},
