@@ -105,7 +105,7 @@ TEST(Primitive, TorusAgreesWithPointsOnIt) {
       surface.push_back(centre + (kRadius_m + kTube_m * std::cos(angle)) * spoke + kTube_m * std::sin(angle) * axis);
     }
   }
-  expectDistance(torus(centre, axis, kRadius_m, kTube_m, {}), surface, 0.011);
+  expectDistance(torus(centre, axis, kRadius_m, kTube_m, {}), surface, 0.02);
 }
 
 TEST(Primitive, RoundedBoxIsASmallerBoxGrown) {
