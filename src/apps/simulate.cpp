@@ -12,7 +12,6 @@
 namespace depth_fusion {
 namespace {
 
-
 struct Arguments {
   std::string output;
   SimulationOptions simulation;
@@ -53,7 +52,8 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       "         evaluate --trajectory out/trajectory.txt --groundtruth room/groundtruth.txt \\\n"
       "                  --mesh out/mesh.ply --scene room\n\n"
       "The same arguments give the same recording, bit for bit. Depth is stored in steps of 0.2 mm\n"
-      "(folder; seal: 0.01 mm) or 1 mm (bag, too coarse for the seal); poses are exact, of the depth camera in\n"
+      "(folder; seal: 0.01 mm) or 1 mm (bag, too coarse for the seal); poses are exact, of the depth camera "
+      "in\n"
       "the scene's world (z up, origin on the floor).");
 }
 

@@ -33,8 +33,7 @@ class TumWriter : public RecordingWriter {
     if (!camera_) depth_unit_m_ = std::min(frame.depth_unit_m, 1.0 / kTumDepthScale);
     const std::string stamp = stampText(frame.stamp_s);
     const std::string entry = "/" + stamp + ".png";
-    writePng(folder_ + "/depth" + entry,
-             convertDepthUnit(frame.depth, frame.depth_unit_m, depth_unit_m_));
+    writePng(folder_ + "/depth" + entry, convertDepthUnit(frame.depth, frame.depth_unit_m, depth_unit_m_));
     depth_list_ += stamp + " depth" + entry + '\n';
     if (!frame.color.empty()) {
       writePng(folder_ + "/rgb" + entry, frame.color);

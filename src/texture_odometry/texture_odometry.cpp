@@ -40,7 +40,8 @@ std::vector<Correspondence> correspondencesOf(const FrameFeatures& reference, co
     const Feature& a = reference.features[match.reference];
     const Feature& b = current.features[match.current];
     result.push_back({sightingOf(a, reference, fullImagePixel(a.pixel, a.level)),
-                      sightingOf(b, current, fullImagePixel(b.pixel, b.level)), kCornerSigma_px * (1 << a.level)});
+                      sightingOf(b, current, fullImagePixel(b.pixel, b.level)),
+                      kCornerSigma_px * (1 << a.level)});
     if (result.back().hasDepth()) {
       kept.push_back(match);
     } else {
@@ -114,13 +115,15 @@ MotionPrior TextureOdometryResult::priorFrom(const Pose& T_W_previous) const {
   return {orthonormalized(T_W_previous * T_previous_current), to_world * covariance * to_world.transpose()};
 }
 
-TextureOdometry::TextureOdometry(const TextureOdometryParameters& parameters, const DepthSensorParameters& sensor)
+TextureOdometry::TextureOdometry(const TextureOdometryParameters& parameters,
+                                 const DepthSensorParameters& sensor)
     : parameters_(parameters), sensor_(sensor) {
   validate(parameters_.table());
   reset();
 }
 
-void TextureOdometry::setParameters(const TextureOdometryParameters& parameters, const DepthSensorParameters& sensor) {
+void TextureOdometry::setParameters(const TextureOdometryParameters& parameters,
+                                    const DepthSensorParameters& sensor) {
   validate(TextureOdometryParameters(parameters).table());
   parameters_ = parameters;
   sensor_ = sensor;

@@ -1,4 +1,5 @@
-// Small things at close range: a precision scanner's seal in voxels of 0.15 mm, and a world that is a sixteenth of the size.
+// Small things at close range: a precision scanner's seal in voxels of 0.15 mm, and a world that is a
+// sixteenth of the size.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -38,10 +39,11 @@ Scan scanSeal(const PipelineParameters& parameters) {
   scan.result = reconstruct(compute(), recording, parameters, Poses::kTracked);
   scan.trajectory = compareTrajectories(scan.result.estimate, scan.result.truth);
   scan.mesh = compareMesh(scan.result.mesh, scan.result.T_W_M, recording.scene().surface);
-  std::printf("%zu lost, ATE %.4f mm, mesh of %.1f cm^2: mean %.4f mm, 95 %% %.4f mm; %zu MB, %zu MB allocated\n",
-              scan.result.lost, 1e3 * scan.trajectory.ate_m.rmse, 1e4 * scan.mesh.area_m2, 1e3 * scan.mesh.surface_m.mean,
-              1e3 * scan.mesh.surface_m.percentile95, scan.result.usage.bytes / 1000000,
-              scan.result.usage.pool_bytes / 1000000);
+  std::printf(
+      "%zu lost, ATE %.4f mm, mesh of %.1f cm^2: mean %.4f mm, 95 %% %.4f mm; %zu MB, %zu MB allocated\n",
+      scan.result.lost, 1e3 * scan.trajectory.ate_m.rmse, 1e4 * scan.mesh.area_m2,
+      1e3 * scan.mesh.surface_m.mean, 1e3 * scan.mesh.surface_m.percentile95,
+      scan.result.usage.bytes / 1000000, scan.result.usage.pool_bytes / 1000000);
   return scan;
 }
 
@@ -117,11 +119,13 @@ TEST(CloseRange, a_small_world_is_tracked_and_fused_as_a_large_one) {
     Pose enlarged = small.estimate[i].T_W_D;
     enlarged.translation() /= kShrink;
     const Pose difference = large.estimate[i].T_W_D.inverse() * enlarged;
-    std::printf("frame %zu: %.6f mm, %.6f mrad apart\n", i, 1e3 * difference.translation().norm(), 1e3 * rotationAngle(difference));
+    std::printf("frame %zu: %.6f mm, %.6f mrad apart\n", i, 1e3 * difference.translation().norm(),
+                1e3 * rotationAngle(difference));
     EXPECT_LE(difference.translation().norm(), 0.0002) << i;
     EXPECT_LE(rotationAngle(difference), 0.0001) << i;
   }
-  std::printf("%zu and %zu blocks, mean certainty %.3f and %.3f\n", large.map.size(), small.map.size(), meanCertainty(large.map), meanCertainty(small.map));
+  std::printf("%zu and %zu blocks, mean certainty %.3f and %.3f\n", large.map.size(), small.map.size(),
+              meanCertainty(large.map), meanCertainty(small.map));
   EXPECT_NEAR(small.map.size(), large.map.size(), 0.02 * large.map.size());
   EXPECT_NEAR(meanCertainty(small.map), meanCertainty(large.map), 0.5);
 }

@@ -102,7 +102,8 @@ TEST(Primitive, TorusAgreesWithPointsOnIt) {
     const Vector3d spoke = Eigen::AngleAxisd(2.0 * kPi * i / kSteps, axis) * across;
     for (int j = 0; j < kSteps / 4; ++j) {
       const double angle = 8.0 * kPi * j / kSteps;
-      surface.push_back(centre + (kRadius_m + kTube_m * std::cos(angle)) * spoke + kTube_m * std::sin(angle) * axis);
+      surface.push_back(centre + (kRadius_m + kTube_m * std::cos(angle)) * spoke +
+                        kTube_m * std::sin(angle) * axis);
     }
   }
   expectDistance(torus(centre, axis, kRadius_m, kTube_m, {}), surface, 0.02);

@@ -92,8 +92,8 @@ INSTANTIATE_TEST_SUITE_P(Library, FreeDirectionsTest,
 
 cv::Mat grayOf(const SimulatedRecording& recording, int frame) {
   cv::Mat gray;
-  cv::cvtColor(render(recording.scene().surface, recording.intrinsics(), recording.poseOf(frame).T_W_D).color, gray,
-               cv::COLOR_BGR2GRAY);
+  cv::cvtColor(render(recording.scene().surface, recording.intrinsics(), recording.poseOf(frame).T_W_D).color,
+               gray, cv::COLOR_BGR2GRAY);
   return gray;
 }
 

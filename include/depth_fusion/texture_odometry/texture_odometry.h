@@ -48,7 +48,8 @@ struct TextureOdometryResult {
 
 class TextureOdometry {
  public:
-  explicit TextureOdometry(const TextureOdometryParameters& parameters, const DepthSensorParameters& sensor = {});
+  explicit TextureOdometry(const TextureOdometryParameters& parameters,
+                           const DepthSensorParameters& sensor = {});
 
   // For the frames to come.
   void setParameters(const TextureOdometryParameters& parameters, const DepthSensorParameters& sensor);
