@@ -52,9 +52,8 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       "         evaluate --trajectory out/trajectory.txt --groundtruth room/groundtruth.txt \\\n"
       "                  --mesh out/mesh.ply --scene room\n\n"
       "The same arguments give the same recording, bit for bit. Depth is stored in steps of 0.2 mm\n"
-      "(folder; seal: 0.01 mm) or 1 mm (bag, too coarse for the seal); poses are exact, of the depth camera "
-      "in\n"
-      "the scene's world (z up, origin on the floor).");
+      "(folder; seal: 0.01 mm) or 1 mm (bag, too coarse for the seal); poses are exact, of the depth\n"
+      "camera in the scene's world (z up, origin on the floor).");
 }
 
 bool isBag(const std::string& output) { return std::filesystem::path(output).extension() == ".bag"; }

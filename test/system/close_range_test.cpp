@@ -85,7 +85,7 @@ RoomRun runRoom(float scale) {
     if (value != nullptr && endsWith("_m")) **value *= endsWith("_per_m") ? 1.0f / scale : scale;
   }
   SimulationOptions options;
-  options.frames = 8;
+  options.frames = 3;  // later, other rounding has grown to tracking's noise
   options.fps = 15.0;
   options.intrinsics = halved(kinectSensor().camera);
   SimulatedRecording recording(options);
@@ -119,13 +119,9 @@ TEST(CloseRange, a_small_world_is_tracked_and_fused_as_a_large_one) {
     Pose enlarged = small.estimate[i].T_W_D;
     enlarged.translation() /= kShrink;
     const Pose difference = large.estimate[i].T_W_D.inverse() * enlarged;
-    std::printf("frame %zu: %.6f mm, %.6f mrad apart\n", i, 1e3 * difference.translation().norm(),
-                1e3 * rotationAngle(difference));
-    EXPECT_LE(difference.translation().norm(), 0.0002) << i;
-    EXPECT_LE(rotationAngle(difference), 0.0001) << i;
+    EXPECT_LE(difference.translation().norm(), 0.00001) << i;
+    EXPECT_LE(rotationAngle(difference), 0.00001) << i;
   }
-  std::printf("%zu and %zu blocks, mean certainty %.3f and %.3f\n", large.map.size(), small.map.size(),
-              meanCertainty(large.map), meanCertainty(small.map));
   EXPECT_NEAR(small.map.size(), large.map.size(), 0.02 * large.map.size());
   EXPECT_NEAR(meanCertainty(small.map), meanCertainty(large.map), 0.5);
 }
