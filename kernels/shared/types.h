@@ -20,10 +20,12 @@
 
 // A voxel's second byte says how sure its distance is, 1 to 255: the number of measurements, their weight, or by the
 // Kalman filter a code of the variance. The code's scale is that of a float's bits, logarithmic but for straight lines
-// between the powers of two: 1 stands for a standard deviation of 50 mm, 255 for 0.05 mm.
+// between the powers of two: 1 stands for a standard deviation of 42 times the sensor's smallest, 255 for 1/24 of it (with a
+// Kinect 50 and 0.05 mm).
 #define CERTAINTY_MAX 255
-#define VARIANCE_BITS_MAX 0x3b23d70a  // bits of the largest, 2.5e-3 m^2
+#define VARIANCE_BITS_MAX 0x3b23d70a  // bits of the largest, 2.5e-3 units
 #define VARIANCE_BITS_STEP 658467     // bits a step of the code
+#define VARIANCE_UNIT_SIGMA_M 0.0012f // the smallest sigma of a sensor whose variances count as they are, in m^2
 
 // The rule by which a measurement changes a voxel (Algorithms 1, 2 and 3 of the paper), and how far the surface is
 // taken to be from it: along the ray, from the plane through the ray's pixel, or from the plane through the pixel that
@@ -143,11 +145,12 @@ typedef struct {
 // Fusion by any of the rules.
 typedef struct {
   float depth_step_m;       // of the measurements
-  float variance_at_1m_m2;  // for which gain and weight are given
+  float units_per_m2;       // of the variances below and of the filters'
+  float variance_at_1m;     // for which gain and weight are given
   float gain_at_1m;         // running average: w_k
   float weight_at_1m;       // weighted: w_k
   float max_weight;         // weighted: W_max
-  float process_variance_m2;  // Kalman: Q
+  float process_variance;   // Kalman: Q
   float free_space_sigmas;  // how far, beyond the truncation, the surface must be behind a voxel that is free
   float free_space_kept;    // the part of its certainty that a free voxel keeps
   int min_certainty;        // below, a free voxel becomes chi

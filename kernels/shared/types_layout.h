@@ -49,11 +49,12 @@
   MEMBER(SensorArgs, edge_sigmas)            \
   STRUCT(FusionArgs)                         \
   MEMBER(FusionArgs, depth_step_m)           \
-  MEMBER(FusionArgs, variance_at_1m_m2)      \
+  MEMBER(FusionArgs, units_per_m2)           \
+  MEMBER(FusionArgs, variance_at_1m)         \
   MEMBER(FusionArgs, gain_at_1m)             \
   MEMBER(FusionArgs, weight_at_1m)           \
   MEMBER(FusionArgs, max_weight)             \
-  MEMBER(FusionArgs, process_variance_m2)    \
+  MEMBER(FusionArgs, process_variance)       \
   MEMBER(FusionArgs, free_space_sigmas)      \
   MEMBER(FusionArgs, free_space_kept)        \
   MEMBER(FusionArgs, min_certainty)          \

@@ -2,7 +2,8 @@
 // fuse_measurement() is what a measurement makes of a voxel, doubt() what is left of its certainty where the space is seen
 // to be free.
 //   certainty  a voxel's second byte, or the exact number before it is rounded to one
-//   axial_m2   a measurement's variance if it were as accurate as can be; the variance itself is axial_m2 / squared_accuracy
+//   axial      a measurement's variance if it were as accurate as can be, in units (see types.h); the variance itself is
+//              axial / squared_accuracy
 #include "shared/simd.h"
 #include "shared/types.h"
 #ifndef FUSION_RULE
@@ -16,10 +17,10 @@ typedef struct {
 
 #if FUSION_RULE == FUSION_AVERAGE
 
-inline FilterStep fuse_measurement(vint certainty, vint known, vfloat axial_m2, vfloat squared_accuracy,
+inline FilterStep fuse_measurement(vint certainty, vint known, vfloat axial, vfloat squared_accuracy,
                                    const FusionArgs args) {
   FilterStep step;
-  step.gain = min(args.gain_at_1m * args.variance_at_1m_m2 * squared_accuracy / axial_m2, 1.0f);
+  step.gain = min(args.gain_at_1m * args.variance_at_1m * squared_accuracy / axial, 1.0f);
   step.certainty = TO_VFLOAT(select((vint)(0), certainty, known)) + 1.0f;
   return step;
 }
@@ -31,9 +32,9 @@ inline vfloat doubt(vint certainty, const FusionArgs args) { return TO_VFLOAT(ce
 // Weights below would let the bytes that hold their sums count few of many measurements.
 #define MIN_WEIGHT 0.25f
 
-inline FilterStep fuse_measurement(vint certainty, vint known, vfloat axial_m2, vfloat squared_accuracy,
+inline FilterStep fuse_measurement(vint certainty, vint known, vfloat axial, vfloat squared_accuracy,
                                    const FusionArgs args) {
-  const vfloat weight = max(args.weight_at_1m * args.variance_at_1m_m2 * squared_accuracy / axial_m2, MIN_WEIGHT);
+  const vfloat weight = max(args.weight_at_1m * args.variance_at_1m * squared_accuracy / axial, MIN_WEIGHT);
   const vfloat total = weight + TO_VFLOAT(select((vint)(0), certainty, known));
   FilterStep step;
   step.gain = weight / total;
@@ -45,24 +46,24 @@ inline vfloat doubt(vint certainty, const FusionArgs args) { return TO_VFLOAT(ce
 
 #else
 
-// Bits of a variance so large, 1 m^2, that the measurement's takes its place.
+// Bits of a variance so large, 1, that the measurement's takes its place.
 #define UNKNOWN_VARIANCE_BITS 0x3f800000
 
 inline vint variance_bits(vint certainty) { return VARIANCE_BITS_MAX - (certainty - 1) * VARIANCE_BITS_STEP; }
 
-inline vfloat certainty_of(vfloat variance_m2) {
-  return TO_VFLOAT(VARIANCE_BITS_MAX - AS_VINT(variance_m2)) * (1.0f / VARIANCE_BITS_STEP) + 1.0f;
+inline vfloat certainty_of(vfloat variance) {
+  return TO_VFLOAT(VARIANCE_BITS_MAX - AS_VINT(variance)) * (1.0f / VARIANCE_BITS_STEP) + 1.0f;
 }
 
-inline FilterStep fuse_measurement(vint certainty, vint known, vfloat axial_m2, vfloat squared_accuracy,
+inline FilterStep fuse_measurement(vint certainty, vint known, vfloat axial, vfloat squared_accuracy,
                                    const FusionArgs args) {
   const vint bits = select((vint)(UNKNOWN_VARIANCE_BITS), variance_bits(certainty), known);
-  const vfloat predicted_m2 = AS_VFLOAT(bits) + args.process_variance_m2;
-  const vfloat accurate_m2 = predicted_m2 * squared_accuracy;
-  const vfloat per_sum = 1.0f / (accurate_m2 + axial_m2);
+  const vfloat predicted = AS_VFLOAT(bits) + args.process_variance;
+  const vfloat accurate = predicted * squared_accuracy;
+  const vfloat per_sum = 1.0f / (accurate + axial);
   FilterStep step;
-  step.gain = accurate_m2 * per_sum;
-  step.certainty = certainty_of(predicted_m2 * axial_m2 * per_sum);
+  step.gain = accurate * per_sum;
+  step.certainty = certainty_of(predicted * axial * per_sum);
   return step;
 }
 

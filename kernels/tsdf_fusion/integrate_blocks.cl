@@ -89,7 +89,7 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
         const vint freed = seen & beyond & known;
         const vuint phase = phase_of_first + DITHER_STEP * (AS_VUINT(LANE_INDICES) + (uint)voxel);
         const vfloat random = TO_VFLOAT(AS_VINT(phase >> 8)) * (1.0f / 16777216.0f);
-        const FilterStep step = fuse_measurement(TO_VINT(old_byte), known, axial_m * axial_m,
+        const FilterStep step = fuse_measurement(TO_VINT(old_byte), known, args.units_per_m2 * axial_m * axial_m,
                                                  measured.accuracy * measured.accuracy, args);
         const vfloat base_steps = select(steps, old_steps, known);
         const vint fused = clamp(dithered(base_steps + step.gain * (steps - base_steps), random),

@@ -17,7 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Arguments {
-  std::string trajectory, groundtruth, plot, mesh, scene;
+  std::string trajectory, groundtruth, plot, mesh, scene, error_map;
+  double full_scale_m = 0.01;
   TrajectoryErrorOptions options;
   bool json = false;
 };
@@ -35,6 +36,13 @@ void addOptions(CLI::App& app, Arguments& arguments) {
                                "the scene the mesh shows: a folder written by simulate, or a scene's name");
   mesh->needs(scene);
   scene->needs(mesh);
+  auto* error_map = app.add_option("--error-map", arguments.error_map,
+                                   "the mesh coloured by its error to write (.ply), blue where there is none")
+                        ->needs(mesh);
+  app.add_option("--full-scale", arguments.full_scale_m, "metres of error that are red in the error map")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->needs(error_map);
   app.add_option("--max-gap", arguments.options.max_gap_s,
                  "seconds to the nearest true poses, over which an estimated pose is left out")
       ->capture_default_str();
@@ -132,7 +140,12 @@ void evaluate(const Arguments& arguments) {
   }
   if (!arguments.mesh.empty()) {
     const Scene scene = makeScene(findSceneName(arguments.scene)).surface;
-    const MeshError error = compareMesh(readPly(arguments.mesh), T_W_M, scene);
+    TriangleMesh mesh = readPly(arguments.mesh);
+    const MeshError error = compareMesh(mesh, T_W_M, scene);
+    if (!arguments.error_map.empty()) {
+      paintError(mesh, T_W_M, scene, arguments.full_scale_m);
+      writePly(arguments.error_map, mesh);
+    }
     report["mesh"] = toJson(error);
     if (!arguments.json) print(error);
   }

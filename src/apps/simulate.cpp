@@ -7,12 +7,10 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/simulation/simulated_recording.h"
-#include "recording/camera_file.h"
 #include "ros/recording.h"
 
 namespace depth_fusion {
 namespace {
-
 
 struct Arguments {
   std::string output;
@@ -53,16 +51,16 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       "         reconstruct --input room --output out\n"
       "         evaluate --trajectory out/trajectory.txt --groundtruth room/groundtruth.txt \\\n"
       "                  --mesh out/mesh.ply --scene room\n\n"
-      "The same arguments give the same recording, bit for bit. Depth is stored in steps of 0.2 mm (folder) "
-      "or\n"
-      "1 mm (bag); poses are exact, of the depth camera in the scene's world (z up, origin on the floor).");
+      "The same arguments give the same recording, bit for bit. Depth is stored in steps of 0.2 mm\n"
+      "(folder; seal: 0.01 mm) or 1 mm (bag, too coarse for the seal); poses are exact, of the depth\n"
+      "camera in the scene's world (z up, origin on the floor).");
 }
 
 bool isBag(const std::string& output) { return std::filesystem::path(output).extension() == ".bag"; }
 
-RgbdFrame asStored(RgbdFrame frame) {
-  frame.depth.convertTo(frame.depth, CV_16UC1, frame.depth_unit_m * kTumDepthScale);
-  frame.depth_unit_m = 1.0 / kTumDepthScale;
+RgbdFrame asStored(RgbdFrame frame, double depth_unit_m) {
+  frame.depth.convertTo(frame.depth, CV_16UC1, frame.depth_unit_m / depth_unit_m);
+  frame.depth_unit_m = depth_unit_m;
   return frame;
 }
 
@@ -84,7 +82,7 @@ void simulate(const Arguments& arguments) {
   std::printf("%s\n", recording.description().c_str());
   size_t written = 0;
   while (const std::optional<RgbdFrame> frame = recording.next()) {
-    writer->write(asStored(*frame));
+    writer->write(asStored(*frame, recording.scene().sensor.depth_unit_m));
     showProgress(++written, recording.frameCount());
   }
   writer->finish();

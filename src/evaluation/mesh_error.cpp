@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <opencv2/core/utility.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "depth_fusion/common/error.h"
 
@@ -58,12 +59,12 @@ std::vector<Vector3d> sampleSurface(const std::vector<Vector3d>& positions_W,
   return points_W;
 }
 
-ErrorStatistics distancesTo(const Scene& scene, const std::vector<Vector3d>& points_W) {
+std::vector<double> distancesTo(const Scene& scene, const std::vector<Vector3d>& points_W) {
   std::vector<double> distances_m(points_W.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(points_W.size())), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) distances_m[i] = std::abs(scene.distance(points_W[i]));
   });
-  return statisticsOf(distances_m);
+  return distances_m;
 }
 
 }  // namespace
@@ -75,9 +76,19 @@ MeshError compareMesh(const TriangleMesh& mesh, const Pose& T_W_M, const Scene& 
   MeshError error;
   error.triangles = mesh.triangles.size();
   error.area_m2 = areas_m2.back();
-  error.vertices_m = distancesTo(scene, positions_W);
-  error.surface_m = distancesTo(scene, sampleSurface(positions_W, mesh.triangles, areas_m2, surface_samples));
+  error.vertices_m = statisticsOf(distancesTo(scene, positions_W));
+  error.surface_m =
+      statisticsOf(distancesTo(scene, sampleSurface(positions_W, mesh.triangles, areas_m2, surface_samples)));
   return error;
+}
+
+void paintError(TriangleMesh& mesh, const Pose& T_W_M, const Scene& scene, double full_scale_m) {
+  const std::vector<double> distances_m = distancesTo(scene, positionsOf(mesh, T_W_M));
+  cv::Mat colors;
+  cv::Mat(distances_m).convertTo(colors, CV_8U, 255.0 / full_scale_m);
+  cv::applyColorMap(colors, colors, cv::COLORMAP_TURBO);
+  mesh.colors.clear();
+  for (const cv::Vec3b& bgr : cv::Mat_<cv::Vec3b>(colors)) mesh.colors.push_back({bgr[2], bgr[1], bgr[0]});
 }
 
 }  // namespace depth_fusion

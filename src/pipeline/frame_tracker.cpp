@@ -26,13 +26,13 @@ FrameTracker::FrameTracker(ComputeContext& compute, const PipelineParameters& pa
       preprocessor_(compute, parameters.preprocessing, camera, parameters.depth_sensor),
       tracker_(compute, parameters.icp_tracking, camera),
       relocaliser_(parameters.relocalisation),
-      matcher_(parameters.texture_odometry) {}
+      matcher_(parameters.texture_odometry, parameters.depth_sensor) {}
 
 void FrameTracker::setParameters(const PipelineParameters& parameters) {
   preprocessor_.setParameters(parameters.preprocessing, parameters.depth_sensor);
   tracker_.setParameters(parameters.icp_tracking);
   relocaliser_.setParameters(parameters.relocalisation);
-  matcher_.setParameters(parameters.texture_odometry);
+  matcher_.setParameters(parameters.texture_odometry, parameters.depth_sensor);
   parameters_ = withinSensorRange(parameters);
 }
 

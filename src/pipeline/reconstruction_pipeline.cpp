@@ -6,7 +6,7 @@ ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const Pi
                                                const CameraIntrinsics& camera)
     : parameters_(withinSensorRange(parameters)),
       map_(compute, parameters.map),
-      odometry_(parameters.texture_odometry),
+      odometry_(parameters.texture_odometry, parameters.depth_sensor),
       mapper_(compute, map_, parameters, camera),
       tracking_queue_(compute.anotherQueue()),
       tracker_(*tracking_queue_, parameters, camera,

@@ -1,4 +1,5 @@
 // Writes recordings in the layout of the TUM RGB-D benchmark.
+#include <algorithm>
 #include <filesystem>
 
 #include "depth_fusion/common/error.h"
@@ -29,10 +30,10 @@ class TumWriter : public RecordingWriter {
 
   void write(const RgbdFrame& frame) override {
     checkFrame(frame);
+    if (!camera_) depth_unit_m_ = std::min(frame.depth_unit_m, 1.0 / kTumDepthScale);
     const std::string stamp = stampText(frame.stamp_s);
     const std::string entry = "/" + stamp + ".png";
-    writePng(folder_ + "/depth" + entry,
-             convertDepthUnit(frame.depth, frame.depth_unit_m, 1.0 / kTumDepthScale));
+    writePng(folder_ + "/depth" + entry, convertDepthUnit(frame.depth, frame.depth_unit_m, depth_unit_m_));
     depth_list_ += stamp + " depth" + entry + '\n';
     if (!frame.color.empty()) {
       writePng(folder_ + "/rgb" + entry, frame.color);
@@ -45,7 +46,7 @@ class TumWriter : public RecordingWriter {
 
   void finish() override {
     check(camera_.has_value(), folder_ + ": no frame was written to this recording");
-    writeCameraFile(folder_ + "/camera.yaml", {*camera_, kTumDepthScale, {}});
+    writeCameraFile(folder_ + "/camera.yaml", {*camera_, 1.0 / depth_unit_m_, {}});
     if (!color_list_.empty()) writeText(folder_ + "/rgb.txt", "# timestamp filename\n" + color_list_);
     if (!groundtruth_.empty()) writeTrajectory(folder_ + "/groundtruth.txt", groundtruth_);
     writeText(folder_ + "/depth.txt", "# timestamp filename\n" + depth_list_);
@@ -64,6 +65,7 @@ class TumWriter : public RecordingWriter {
   std::string color_list_;
   Trajectory groundtruth_;
   std::optional<CameraIntrinsics> camera_;
+  double depth_unit_m_ = 0.0;
   double last_stamp_s_ = 0.0;
 };
 

@@ -25,6 +25,10 @@ double capsuleDistance(const Vector3d& p_S, const Vector3d& half_size_m) {
   return std::sqrt(p_S.x() * p_S.x() + p_S.y() * p_S.y() + axial * axial) - half_size_m.x();
 }
 
+double torusDistance(const Vector3d& p_S, const Vector3d& half_size_m) {
+  return std::hypot(std::hypot(p_S.x(), p_S.y()) - half_size_m.x(), p_S.z()) - half_size_m.z();
+}
+
 Pose poseWithZ(const Vector3d& origin_W, const Vector3d& z_W) {
   Pose T_W_S = Pose::Identity();
   T_W_S.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), z_W).toRotationMatrix();
@@ -65,6 +69,8 @@ double Primitive::distanceInS(const Vector3d& p_S) const {
       return cylinderDistance(p_S, half_size_m_);
     case Shape::kCapsule:
       return capsuleDistance(p_S, half_size_m_);
+    case Shape::kTorus:
+      return torusDistance(p_S, half_size_m_);
     case Shape::kPlane:
       return p_S.z();
   }
@@ -81,14 +87,27 @@ Vector3d Primitive::normal(const Vector3d& p_W) const {
   return gradient.normalized();
 }
 
+// Half the size of the box along the axes of S that holds the solid.
+Vector3d Primitive::extentInS() const {
+  const double radius_m = half_size_m_.x(), reach_m = half_size_m_.z();
+  switch (shape_) {
+    case Shape::kSphere:
+      return Vector3d::Constant(radius_m);
+    case Shape::kCapsule:
+      return {radius_m, radius_m, radius_m + reach_m};
+    case Shape::kTorus:
+      return {radius_m + reach_m, radius_m + reach_m, reach_m};
+    default:
+      return half_size_m_;
+  }
+}
+
 Primitive::Interval Primitive::hitInterval(const Vector3d& origin_S, const Vector3d& ray_S) const {
   if (shape_ == Shape::kPlane) {
     const double hit_m = -origin_S.z() / ray_S.z();
     return {hit_m, hit_m};
   }
-  const Vector3d extent = shape_ == Shape::kSphere    ? Vector3d::Constant(half_size_m_.x())
-                          : shape_ == Shape::kCapsule ? half_size_m_ + half_size_m_.x() * Vector3d::UnitZ()
-                                                      : half_size_m_;
+  const Vector3d extent = extentInS();
   const Eigen::Array3d low = (-extent - origin_S).array() / ray_S.array();
   const Eigen::Array3d high = (extent - origin_S).array() / ray_S.array();
   const double enter_m = low.min(high).maxCoeff();
@@ -123,6 +142,7 @@ double Primitive::boundingRadius() const {
     case Shape::kCylinder:
       return std::hypot(half_size_m_.x(), half_size_m_.z());
     case Shape::kCapsule:
+    case Shape::kTorus:
       return half_size_m_.x() + half_size_m_.z();
     case Shape::kRoom:
     case Shape::kPlane:
@@ -155,6 +175,11 @@ Primitive cylinder(const Vector3d& bottom_W, const Vector3d& top_W, double radiu
 
 Primitive capsule(const Vector3d& from_W, const Vector3d& to_W, double radius_m, const Material& material) {
   return alongAxis(Shape::kCapsule, from_W, to_W, radius_m, material);
+}
+
+Primitive torus(const Vector3d& centre_W, const Vector3d& axis_W, double radius_m, double tube_radius_m,
+                const Material& material) {
+  return Primitive(Shape::kTorus, poseWithZ(centre_W, axis_W), {radius_m, radius_m, tube_radius_m}, material);
 }
 
 Primitive plane(const Vector3d& point_W, const Vector3d& normal_W, const Material& material) {

@@ -8,6 +8,7 @@ namespace depth_fusion {
 SimulatedScene makeRoomScene();
 SimulatedScene makeWhiteRoomScene();
 SimulatedScene makeObjectScene();
+SimulatedScene makeSealScene();
 SimulatedScene makeWallScene();
 SimulatedScene makeFloorWallScene();
 SimulatedScene makeCylinderScene();

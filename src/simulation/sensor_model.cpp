@@ -7,9 +7,6 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kEdgeStep =
-    0.03;  // a depth step of this fraction of the depth between neighbours is an edge
-
 // Normal noise of unit variance for every pixel, correlated over noise_width_px.
 cv::Mat correlatedNoise(const cv::Size& size, double noise_width_px, uint64_t seed) {
   const int radius = static_cast<int>(std::ceil(3.0 * noise_width_px));
@@ -58,7 +55,7 @@ class RowSensor {
     for (const cv::Point step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
       const cv::Point neighbour = cv::Point(u, v) + step;
       if (!neighbour.inside(cv::Rect({}, view_.depth_m.size()))) continue;
-      if (std::abs(view_.depth_m.at<float>(neighbour) - z_m) > kEdgeStep * z_m) return true;
+      if (std::abs(view_.depth_m.at<float>(neighbour) - z_m) > sensor_.edge_step * z_m) return true;
     }
     return false;
   }
@@ -108,6 +105,23 @@ SensorModel precisionSensor() {
   sensor.sigma_base_m = 0.00005;
   sensor.sigma_growth_per_m = 0.00055;
   sensor.lateral_sigma_px = 0.2;
+  sensor.edge_dropout = 0.6;
+  sensor.grazing_cos = 0.2;
+  return sensor;
+}
+
+SensorModel partScanner() {
+  SensorModel sensor;
+  sensor.camera = {640, 480, 1650.0, 1650.0, 319.5, 239.5};
+  sensor.depth_unit_m = 0.00001;
+  sensor.min_range_m = 0.2;
+  sensor.max_range_m = 0.5;
+  sensor.sigma_base_m = 0.00005;
+  sensor.sigma_growth_per_m = 0.0002;
+  sensor.sigma_from_m = 0.2;
+  sensor.noise_width_px = 0.6;
+  sensor.lateral_sigma_px = 0.2;
+  sensor.edge_step = 0.005;
   sensor.edge_dropout = 0.6;
   sensor.grazing_cos = 0.2;
   return sensor;

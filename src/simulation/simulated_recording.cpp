@@ -54,8 +54,9 @@ HandSpeed handSpeed(const SimulationOptions& options, const GazePath& path) {
 
 SimulatedRecording::SimulatedRecording(const SimulationOptions& options)
     : options_(options), scene_(makeScene(options.scene)) {
-  checkOptions(options, scene_);
-  hand_speed_ = handSpeed(options, scene_.path);
+  if (options_.intrinsics.width == 0) options_.intrinsics = scene_.sensor.camera;
+  checkOptions(options_, scene_);
+  hand_speed_ = handSpeed(options_, scene_.path);
 }
 
 StampedPose SimulatedRecording::poseOf(int frame) const {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/types.h"
+
 namespace depth_fusion {
 namespace {
 
@@ -17,15 +19,26 @@ constexpr double kMaxResidual_sigmas = 4.0;
 constexpr int kSearchSteps = 8;
 constexpr double kSearchTolerance_px = 0.3;
 
+// 0 without depth.
+double meanDepth_m(const RgbdFrame& frame) {
+  constexpr double kInfinite = 1e9;
+  return frame.depth_unit_m * cv::mean(frame.depth, (frame.depth > 0.0) & (frame.depth < kInfinite))[0];
+}
+
 class SurfaceFinder {
  public:
   SurfaceFinder(const RgbdFrame& frame, const FrameFeatures& features)
-      : frame_(frame), camera_C_(features.camera), T_D_C_(features.T_C_D.inverse()) {}
+      : frame_(frame),
+        camera_C_(features.camera),
+        T_D_C_(features.T_C_D.inverse()),
+        sensor_(features.depth_sensor),
+        mean_depth_m_(meanDepth_m(frame)) {}
 
   std::optional<Vector3d> find(const Vector2d& pixel_C) const {
+    if (!(mean_depth_m_ > 0.0)) return std::nullopt;
     const Vector3d ray_C = rayThrough(camera_C_, pixel_C);
-    for (const double start_m : {1.5, 0.6, 3.0}) {
-      const std::optional<Vector2d> pixel_D = depthPixel(ray_C, start_m);
+    for (const double start : {1.0, 0.4, 2.0}) {
+      const std::optional<Vector2d> pixel_D = depthPixel(ray_C, start * mean_depth_m_);
       const std::optional<Vector3d> surface_D = pixel_D ? fitPlane(*pixel_D) : std::nullopt;
       if (!surface_D) continue;
       const Vector3d surface_C =
@@ -82,7 +95,7 @@ class SurfaceFinder {
     for (int i = 0; i < count; ++i) {
       const auto& [offset, z_m] = samples[i];
       const double residual_m = 1.0 / plane.dot(offset) - z_m;
-      if (!(std::abs(residual_m) < kMaxResidual_sigmas * depthSigma(z_m))) return std::nullopt;
+      if (!(std::abs(residual_m) < kMaxResidual_sigmas * AXIAL_SIGMA_M(sensor_, z_m))) return std::nullopt;
     }
     return planeOfPixels(plane, centre_u, centre_v);
   }
@@ -97,6 +110,8 @@ class SurfaceFinder {
   const RgbdFrame& frame_;
   const CameraIntrinsics& camera_C_;
   Pose T_D_C_;
+  DepthSensorParameters sensor_;
+  double mean_depth_m_;
 };
 
 }  // namespace

@@ -6,9 +6,6 @@
 
 namespace depth_fusion {
 
-// Standard deviation of a structured-light sensor's depth at z_m, quantisation included.
-inline double depthSigma(double z_m) { return 0.0012 + 0.0019 * (z_m - 0.4) * (z_m - 0.4); }
-
 // A pixel of a pyramid level in pixels of the full image.
 template <class Point>
 Eigen::Vector2d fullImagePixel(const Point& pixel, int level) {

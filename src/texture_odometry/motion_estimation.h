@@ -13,6 +13,7 @@ namespace depth_fusion {
 struct Sighting {
   Eigen::Vector2d pixel;
   std::optional<Eigen::Vector3d> point;  // in the camera's frame, where there is depth
+  double depth_sigma_m = 0.0;            // standard deviation of the point's depth
 };
 
 struct Correspondence {

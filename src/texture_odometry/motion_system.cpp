@@ -33,7 +33,7 @@ void addRobust(const Jacobian& jacobian, const Residual& residual, double weight
 }
 
 double depthDifferenceSigma(const Correspondence& pair) {
-  return std::hypot(depthSigma(pair.reference.point->z()), depthSigma(pair.current.point->z()));
+  return std::hypot(pair.reference.depth_sigma_m, pair.current.depth_sigma_m);
 }
 
 }  // namespace

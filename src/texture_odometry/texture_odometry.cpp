@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/types.h"
 #include "texture_odometry/feature_depth.h"
 #include "texture_odometry/feature_detection.h"
 #include "texture_odometry/feature_matching.h"
@@ -18,13 +19,16 @@ using Eigen::Vector3d;
 // A corner is found to about a pixel of its level, its patch aligned to a fraction of one.
 constexpr double kCornerSigma_px = 1.0;
 
-std::optional<Vector3d> pointOn(const Feature& feature, const CameraIntrinsics& camera,
-                                const Vector2d& pixel) {
-  if (!feature.surface_C) return std::nullopt;
-  const Vector3d ray = rayThrough(camera, pixel);
+// What the frame's camera sees of the feature at the pixel of the full image.
+Sighting sightingOf(const Feature& feature, const FrameFeatures& frame, const Vector2d& pixel) {
+  Sighting sighting{pixel, std::nullopt, 0.0};
+  if (!feature.surface_C) return sighting;
+  const Vector3d ray = rayThrough(frame.camera, pixel);
   const double inverse_z = feature.surface_C->dot(ray);
-  if (!(inverse_z > 0.0)) return std::nullopt;
-  return Vector3d(ray / inverse_z);
+  if (!(inverse_z > 0.0)) return sighting;
+  sighting.point = ray / inverse_z;
+  sighting.depth_sigma_m = AXIAL_SIGMA_M(frame.depth_sensor, sighting.point->z());
+  return sighting;
 }
 
 // The pairs with depth in one of the frames at least, at the corners' pixels.
@@ -35,10 +39,8 @@ std::vector<Correspondence> correspondencesOf(const FrameFeatures& reference, co
   for (const FeatureMatch& match : matches) {
     const Feature& a = reference.features[match.reference];
     const Feature& b = current.features[match.current];
-    const Vector2d pixel_a = fullImagePixel(a.pixel, a.level);
-    const Vector2d pixel_b = fullImagePixel(b.pixel, b.level);
-    result.push_back({{pixel_a, pointOn(a, reference.camera, pixel_a)},
-                      {pixel_b, pointOn(b, current.camera, pixel_b)},
+    result.push_back({sightingOf(a, reference, fullImagePixel(a.pixel, a.level)),
+                      sightingOf(b, current, fullImagePixel(b.pixel, b.level)),
                       kCornerSigma_px * (1 << a.level)});
     if (result.back().hasDepth()) {
       kept.push_back(match);
@@ -63,8 +65,8 @@ std::vector<Correspondence> alignPatches(const FrameFeatures& reference, const F
         alignPatch(a.patch, current.smoothed_levels[b.level], Vector2d(b.pixel.x, b.pixel.y));
     if (!level_pixel) continue;
     Correspondence pair = pairs[index];
-    pair.current.pixel = fullImagePixel(cv::Point2d(level_pixel->x(), level_pixel->y()), b.level);
-    pair.current.point = pointOn(b, current.camera, pair.current.pixel);
+    const cv::Point2d pixel(level_pixel->x(), level_pixel->y());
+    pair.current = sightingOf(b, current, fullImagePixel(pixel, b.level));
     if (pair.hasDepth()) aligned.push_back(pair);
   }
   return aligned;
@@ -113,14 +115,18 @@ MotionPrior TextureOdometryResult::priorFrom(const Pose& T_W_previous) const {
   return {orthonormalized(T_W_previous * T_previous_current), to_world * covariance * to_world.transpose()};
 }
 
-TextureOdometry::TextureOdometry(const TextureOdometryParameters& parameters) : parameters_(parameters) {
+TextureOdometry::TextureOdometry(const TextureOdometryParameters& parameters,
+                                 const DepthSensorParameters& sensor)
+    : parameters_(parameters), sensor_(sensor) {
   validate(parameters_.table());
   reset();
 }
 
-void TextureOdometry::setParameters(const TextureOdometryParameters& parameters) {
+void TextureOdometry::setParameters(const TextureOdometryParameters& parameters,
+                                    const DepthSensorParameters& sensor) {
   validate(TextureOdometryParameters(parameters).table());
   parameters_ = parameters;
+  sensor_ = sensor;
 }
 
 void TextureOdometry::reset() {
@@ -139,6 +145,7 @@ FrameFeatures TextureOdometry::extract(const RgbdFrame& frame) const {
   FrameFeatures result;
   result.camera = colorCamera(frame);
   result.T_C_D = frame.T_C_D.value_or(Pose::Identity());
+  result.depth_sensor = sensor_;
   result.reason = colorProblem(frame);
   if (!result.reason.empty()) return result;
   detectFeatures(frame.color, parameters_, result);

@@ -20,16 +20,16 @@ FusionParameters validated(FusionParameters parameters) {
 }
 
 // By the Kalman filter, a distance whose sigma is above half the truncation says nothing any more.
-int minCertainty(const FusionParameters& parameters, const MapParameters& map) {
-  return parameters.rule == "kalman" ? std::max(certaintyOf(0.25f * map.truncation_m * map.truncation_m), 1)
-                                     : 1;
+int minCertainty(const FusionParameters& parameters, const MapParameters& map, float units_per_m2) {
+  const float variance = units_per_m2 * (0.25f * map.truncation_m * map.truncation_m);
+  return parameters.rule == "kalman" ? std::max(certaintyOf(variance), 1) : 1;
 }
 
 }  // namespace
 
-int certaintyOf(float variance_m2) {
+int certaintyOf(float variance) {
   int bits = 0;
-  std::memcpy(&bits, &variance_m2, sizeof(bits));
+  std::memcpy(&bits, &variance, sizeof(bits));
   return std::clamp((VARIANCE_BITS_MAX - bits) / VARIANCE_BITS_STEP + 1, 0, CERTAINTY_MAX);
 }
 
@@ -46,16 +46,18 @@ SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& ca
 
 FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,
                       int frame_number) {
+  const DepthSensorParameters& sensor = frame.levels[0].sensor;
   FusionArgs args{};
   args.depth_step_m = frame.depth_step_m;
-  args.variance_at_1m_m2 = std::pow(AXIAL_SIGMA_M(frame.levels[0].sensor, 1.0f), 2.0f);
+  args.units_per_m2 = std::pow(VARIANCE_UNIT_SIGMA_M / sensor.sigma_base_m, 2.0f);
+  args.variance_at_1m = args.units_per_m2 * std::pow(AXIAL_SIGMA_M(sensor, 1.0f), 2.0f);
   args.gain_at_1m = parameters.gain_at_1m;
   args.weight_at_1m = parameters.weight_at_1m;
   args.max_weight = parameters.max_weight;
-  args.process_variance_m2 = parameters.process_sigma_m * parameters.process_sigma_m;
+  args.process_variance = args.units_per_m2 * (parameters.process_sigma_m * parameters.process_sigma_m);
   args.free_space_sigmas = parameters.free_space_sigmas;
   args.free_space_kept = 1.0f - parameters.free_space_rate;
-  args.min_certainty = minCertainty(parameters, map);
+  args.min_certainty = minCertainty(parameters, map, args.units_per_m2);
   args.frame = frame_number;
   return args;
 }

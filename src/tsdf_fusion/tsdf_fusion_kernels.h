@@ -9,7 +9,7 @@
 namespace depth_fusion {
 
 // The code of a variance in a voxel's second byte, 0 for one above the scale.
-int certaintyOf(float variance_m2);
+int certaintyOf(float variance);
 
 // Sampling points lie at most half a block apart across the rays, at a depth of 3 m, and along them.
 SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& camera);

@@ -59,6 +59,21 @@ TEST(MeshError, OfAGlobeTooLargeIsTheExcess) {
   EXPECT_EQ(error.surface_m.count, 20000u);
 }
 
+TEST(MeshError, PaintsFromBlueToRed) {
+  TriangleMesh mesh;
+  for (const float off_m : {0.0f, 0.005f, 0.01f, 0.02f}) {
+    mesh.vertices.push_back({{float(kRadius_m) + off_m, 0, 0}, {1, 0, 0}});
+  }
+  Pose T_W_M = Pose::Identity();
+  T_W_M.translation() = kCentre;
+  paintError(mesh, T_W_M, sphereScene(), 0.01);
+  ASSERT_EQ(mesh.colors.size(), 4u);
+  EXPECT_GT(mesh.colors[0][2], mesh.colors[0][0]);
+  EXPECT_GT(mesh.colors[1][1], 200);
+  EXPECT_GT(mesh.colors[2][0], 2 * mesh.colors[2][2]);
+  EXPECT_EQ(mesh.colors[3], mesh.colors[2]);
+}
+
 TEST(MeshError, OfCoarseTrianglesShowsOnTheSurfaceOnly) {
   const MeshError error = compareMesh(globe(kRadius_m, 8, 16), atCentre(), sphereScene(), 20000);
   EXPECT_LT(error.vertices_m.max, 1e-6);

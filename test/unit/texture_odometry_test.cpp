@@ -86,6 +86,34 @@ TEST(TextureOdometry, DepthInOneFrameIsEnough) {
   }
 }
 
+// Half a scanner's depth is 1 mm off: 20 of its standard deviations, and less than one of a Kinect's.
+TEST(TextureOdometry, DepthErrorsCountBySensor) {
+  SimulationOptions options;
+  options.scene = "seal";
+  const SimulatedRecording recording(options);
+  const auto frameAt = [&](int i) {
+    const RenderedView view = render(recording.scene().surface, recording.intrinsics(), recording.poseOf(i).T_W_D);
+    return frameOf(view, partScanner(), recording.intrinsics(), i);
+  };
+  const RgbdFrame previous = frameAt(0);
+  RgbdFrame current = frameAt(1);
+  const cv::Mat right_half = current.depth.colRange(320, 640);
+  cv::add(right_half, 0.001, right_half, right_half > 0.0f);
+  DepthSensorParameters scanner;
+  scanner.sigma_base_m = 0.00005f;
+  scanner.sigma_growth_per_m = 0.0002f;
+  scanner.sigma_from_m = 0.2f;
+  const auto motionBy = [&](const DepthSensorParameters& sensor) {
+    TextureOdometry odometry({}, sensor);
+    odometry.process(previous);
+    return odometry.process(current);
+  };
+  const TextureOdometryResult by_scanner = motionBy(scanner), by_kinect = motionBy({});
+  ASSERT_TRUE(by_scanner.found && by_kinect.found) << by_scanner.reason << by_kinect.reason;
+  EXPECT_GT(by_kinect.inliers, 0.85 * by_kinect.matches);
+  EXPECT_LT(by_scanner.inliers, 0.75 * by_scanner.matches);
+}
+
 TEST(TextureOdometry, ColourBesideTheDepthCamera) {
   CameraIntrinsics color_camera{800, 600, 640.0, 645.0, 405.0, 296.0};
   const Pose T_C_D = motionOf({0.4, -0.6, 0.8}, {-0.025, 0.004, 0.002});

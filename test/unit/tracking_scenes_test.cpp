@@ -91,10 +91,9 @@ INSTANTIATE_TEST_SUITE_P(Library, FreeDirectionsTest,
                                          FreeDirections{"white_room", 0}));
 
 cv::Mat grayOf(const SimulatedRecording& recording, int frame) {
-  const CameraIntrinsics camera = SimulationOptions().intrinsics;
   cv::Mat gray;
-  cv::cvtColor(render(recording.scene().surface, camera, recording.poseOf(frame).T_W_D).color, gray,
-               cv::COLOR_BGR2GRAY);
+  cv::cvtColor(render(recording.scene().surface, recording.intrinsics(), recording.poseOf(frame).T_W_D).color,
+               gray, cv::COLOR_BGR2GRAY);
   return gray;
 }
 

@@ -50,6 +50,19 @@ TEST(TumWriter, converts_other_units_rounding_to_nearest) {
   EXPECT_EQ(depth.at<uint16_t>(0, 0), 0);
 }
 
+TEST(TumWriter, keeps_units_that_are_finer_than_the_layouts) {
+  const TemporaryFolder folder;
+  RgbdFrame frame = testFrame(0);
+  frame.depth_unit_m = 0.00001;
+  frame.depth.at<uint16_t>(1, 1) = 25001;
+  const auto writer = createTumFolder(folder / "seal");
+  writer->write(frame);
+  writer->finish();
+  const RgbdFrame read = *openFolder(folder / "seal", {})->next();
+  EXPECT_NEAR(read.depth_unit_m, 0.00001, 1e-15);
+  EXPECT_EQ(read.depth.at<uint16_t>(1, 1), 25001);
+}
+
 TEST(TumWriter, takes_frames_without_colour_and_with_gray) {
   const TemporaryFolder folder;
   const auto writer = createTumFolder(folder / "room");

@@ -18,4 +18,8 @@ struct MeshError {
 MeshError compareMesh(const TriangleMesh& mesh, const Pose& T_W_M, const Scene& scene,
                       int surface_samples = 500000);
 
+// Colours the vertices by their distance to the surface: blue at 0, over green to red at full_scale_m and
+// beyond.
+void paintError(TriangleMesh& mesh, const Pose& T_W_M, const Scene& scene, double full_scale_m);
+
 }  // namespace depth_fusion

@@ -33,6 +33,7 @@ enum class Shape {
   kSphere,    // radius half_size.x
   kCylinder,  // along z with flat ends, radius half_size.x, half height half_size.z
   kCapsule,   // along z with round ends, radius half_size.x, half height without the ends half_size.z
+  kTorus,     // around z, radius half_size.x to the middle of the tube, whose radius is half_size.z
   kPlane,     // z = 0, free space above
 };
 
@@ -63,6 +64,7 @@ class Primitive {
     double begin_m, end_m;
   };
 
+  Eigen::Vector3d extentInS() const;
   double distanceInS(const Eigen::Vector3d& p_S) const;
   // The part of a ray that can hold the first hit; empty if its end lies before its begin.
   Interval hitInterval(const Eigen::Vector3d& origin_S, const Eigen::Vector3d& ray_S) const;
@@ -84,6 +86,9 @@ Primitive cylinder(const Eigen::Vector3d& bottom_W, const Eigen::Vector3d& top_W
                    const Material& material);
 Primitive capsule(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, double radius_m,
                   const Material& material);
+// A ring around axis_W.
+Primitive torus(const Eigen::Vector3d& centre_W, const Eigen::Vector3d& axis_W, double radius_m,
+                double tube_radius_m, const Material& material);
 Primitive plane(const Eigen::Vector3d& point_W, const Eigen::Vector3d& normal_W, const Material& material);
 
 }  // namespace depth_fusion

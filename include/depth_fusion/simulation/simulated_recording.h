@@ -16,7 +16,7 @@ struct SimulationOptions {
   // Of the recording's fastest moment, tremor aside, in place of speed; 0: as speed says.
   double linear_speed_m_s = 0.0;
   double turn_rate_deg_s = 0.0;
-  CameraIntrinsics intrinsics{640, 480, 525.0, 525.0, 319.5, 239.5};
+  CameraIntrinsics intrinsics;  // width 0: those of the scene's sensor
 };
 
 class SimulatedRecording : public Recording {
@@ -31,6 +31,7 @@ class SimulatedRecording : public Recording {
 
   const SimulatedScene& scene() const { return scene_; }
   StampedPose poseOf(int frame) const;
+  const CameraIntrinsics& intrinsics() const { return options_.intrinsics; }
 
  private:
   SimulationOptions options_;

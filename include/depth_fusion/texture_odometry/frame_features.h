@@ -10,6 +10,7 @@
 
 #include "depth_fusion/geometry/camera_intrinsics.h"
 #include "depth_fusion/geometry/pose.h"
+#include "depth_fusion/preprocessing/depth_sensor.h"
 
 namespace depth_fusion {
 
@@ -33,6 +34,7 @@ struct FrameFeatures {
   std::string reason;       // why there are no features; empty otherwise
   CameraIntrinsics camera;  // of the colour camera
   Pose T_C_D = Pose::Identity();
+  DepthSensorParameters depth_sensor;  // the depth's noise
   std::vector<Feature> features;
   std::vector<cv::Mat> smoothed_levels;  // grey; needed of the current frame only, a keyframe can drop them
 };

@@ -48,10 +48,11 @@ struct TextureOdometryResult {
 
 class TextureOdometry {
  public:
-  explicit TextureOdometry(const TextureOdometryParameters& parameters);
+  explicit TextureOdometry(const TextureOdometryParameters& parameters,
+                           const DepthSensorParameters& sensor = {});
 
   // For the frames to come.
-  void setParameters(const TextureOdometryParameters& parameters);
+  void setParameters(const TextureOdometryParameters& parameters, const DepthSensorParameters& sensor);
 
   // The motion against the frame of the last call.
   TextureOdometryResult process(const RgbdFrame& frame);
@@ -68,6 +69,7 @@ class TextureOdometry {
 
  private:
   TextureOdometryParameters parameters_;
+  DepthSensorParameters sensor_;
   FrameFeatures previous_;
 };
 

@@ -18,10 +18,10 @@ std::vector<RgbdFrame> roomViews(int width, size_t count) {
   SimulationOptions options;
   options.frames = static_cast<int>(count);
   options.fps = kFps;
-  CameraIntrinsics& camera = options.intrinsics;
+  const CameraIntrinsics camera = kinectSensor().camera;
   const double scale = static_cast<double>(width) / camera.width;
   const int height = static_cast<int>(std::lround(camera.height * scale));
-  camera = {width, height, camera.fx * scale, camera.fy * scale, 0.5 * (width - 1), 0.5 * (height - 1)};
+  options.intrinsics = {width, height, camera.fx * scale, camera.fy * scale, 0.5 * (width - 1), 0.5 * (height - 1)};
   SimulatedRecording recording(options);
   std::vector<RgbdFrame> views;
   while (std::optional<RgbdFrame> view = recording.next()) {

@@ -65,7 +65,7 @@ StageFixture::StageFixture(ComputeContext& compute, const TrackingInput& input)
       parameters_(pipeline_.parameters()),
       preprocessor_(compute, parameters_.preprocessing, frame_.intrinsics, parameters_.depth_sensor),
       next_preprocessor_(compute, parameters_.preprocessing, frame_.intrinsics, parameters_.depth_sensor),
-      odometry_(parameters_.texture_odometry),
+      odometry_(parameters_.texture_odometry, parameters_.depth_sensor),
       tracker_(compute, parameters_.icp_tracking, frame_.intrinsics),
       icp_kernels_(compute),
       partial_sums_(compute, frame_.intrinsics.height * ICP_SUMS * sizeof(float), "ICP sums"),

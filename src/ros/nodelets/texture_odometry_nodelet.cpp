@@ -27,6 +27,7 @@ class TextureOdometryNodelet : public StageNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
   TextureOdometryParameters parameters_;
+  DepthSensorParameters depth_sensor_;
   RgbdParameters rgbd_;
   std::string odom_frame_ = "texture_odom";
   int queue_size_ = 3;
@@ -46,8 +47,8 @@ void TextureOdometryNodelet::start() {
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
   table.push_back({"odom_frame", &odom_frame_, 0, 0, "frame of the odometry: where the sensor was in the first frame", {}, true});
   table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true});
-  loadParameters(table);
-  odometry_ = std::make_unique<TextureOdometry>(parameters_);
+  loadParameters(table, {{"depth_sensor", depth_sensor_.table()}});
+  odometry_ = std::make_unique<TextureOdometry>(parameters_, depth_sensor_);
 
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
   frame_publisher_ = handle.advertise<TexturedFrameMessage>("frame", 10);
@@ -61,7 +62,7 @@ void TextureOdometryNodelet::start() {
 }
 
 void TextureOdometryNodelet::applyParameters() {
-  if (odometry_ != nullptr) odometry_->setParameters(parameters_);
+  if (odometry_ != nullptr) odometry_->setParameters(parameters_, depth_sensor_);
   if (subscriber_ != nullptr) subscriber_->setParameters(rgbd_);
 }
 
