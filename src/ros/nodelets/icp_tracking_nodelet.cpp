@@ -122,7 +122,7 @@ void IcpTrackingNodelet::start() {
   ros::NodeHandle& private_handle = getMTPrivateNodeHandle();
   if (map_name_.empty()) map_name_ = handle.resolveName("tsdf_fusion");
   pose_publisher_ = std::make_unique<PosePublisher>(handle, private_handle, pose_);
-  frame_publisher_ = private_handle.advertise<TrackedFrameMessage>("frame", 10);
+  frame_publisher_ = private_handle.advertise<TrackedFrameMessage>("frame", kProcessQueue);
   status_publisher_ = private_handle.advertise<TrackerStatus>("status", 100, true);
   worker_ = std::make_unique<Worker<TexturedFramePtr>>(
       queue_size_, [this](const TexturedFramePtr& frame) { process(frame); },
@@ -131,16 +131,12 @@ void IcpTrackingNodelet::start() {
         const std::lock_guard<std::mutex> lock(mutex_);
         skipped_.push_back({frame->sensor->clock_jumps, frame->sensor->rgbd.stamp_s, frame->motion});
       });
-  view_subscriber_ = handle.subscribe<MapViewMessage>("tsdf_fusion/model_view", 100,
-                                                      &IcpTrackingNodelet::receiveView, this);
+  view_subscriber_ = subscribeInProcess<MapView>("tsdf_fusion/model_view", "tsdf_fusion", Carries::kOther,
+                                                 [this](const MapViewMessage::ConstPtr& view) { receiveView(view); });
   if (use_texture_) {
-    frame_subscriber_ = handle.subscribe<TexturedFrameMessage>(
-        "texture_odometry/frame", 100, [this](const TexturedFrameMessage::ConstPtr& message) {
-          counter_.receive();
-          if (message->payload != nullptr) return receive(message->payload);
-          counter_.drop("from another process");
-          NODELET_ERROR_THROTTLE(5.0, "texture_odometry runs in another process; load it in the same nodelet manager");
-        });
+    frame_subscriber_ = subscribeInProcess<TexturedFrame>(
+        "texture_odometry/frame", "texture_odometry", Carries::kFrames,
+        [this](const TexturedFrameMessage::ConstPtr& message) { receive(message->payload); });
   } else {
     sensor_subscriber_ = std::make_unique<RgbdSubscriber>(handle, rgbd_, counter_, [this](const SensorFramePtr& sensor) {
       auto frame = std::make_shared<TexturedFrame>();
@@ -155,11 +151,11 @@ void IcpTrackingNodelet::start() {
 void IcpTrackingNodelet::loadAll() {
   ParameterTable table = parameters_.icp_tracking.table();
   for (const ParameterTable& rows : {rgbd_.table(), pose_.table()}) table.insert(table.end(), rows.begin(), rows.end());
-  table.push_back({"device", &device_, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best", {}, true});
+  table.push_back(deviceRow(device_));
   table.push_back({"map", &map_name_, 0, 0, "the nodelet that has the map; empty: tsdf_fusion beside this one", {}, true});
   table.push_back({"texture_odometry", &use_texture_, 0, 1,
                    "true: frames come from texture_odometry; false: from the topics, with the last pose as the prior", {}, true});
-  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true});
+  table.push_back(queueSizeRow(queue_size_));
   table.push_back({"on_clock_jump", &on_clock_jump_, 0, 0,
                    "what a clock that goes back does to the map: begin anew, or keep it and find the sensor in it",
                    {"reset", "keep"}});
@@ -184,10 +180,6 @@ void IcpTrackingNodelet::receive(const TexturedFramePtr& frame) {
 }
 
 void IcpTrackingNodelet::receiveView(const MapViewMessage::ConstPtr& view) {
-  if (view->payload == nullptr) {
-    NODELET_ERROR_THROTTLE(5.0, "tsdf_fusion runs in another process; load it in the same nodelet manager");
-    return;
-  }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     views_.push_back(view);

@@ -45,12 +45,12 @@ void TextureOdometryNodelet::start() {
   ParameterTable table = parameters_.table();
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
   table.push_back({"odom_frame", &odom_frame_, 0, 0, "frame of the odometry: where the sensor was in the first frame", {}, true});
-  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true});
+  table.push_back(queueSizeRow(queue_size_));
   loadParameters(table);
   odometry_ = std::make_unique<TextureOdometry>(parameters_);
 
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
-  frame_publisher_ = handle.advertise<TexturedFrameMessage>("frame", 10);
+  frame_publisher_ = handle.advertise<TexturedFrameMessage>("frame", kProcessQueue);
   odometry_publisher_ = handle.advertise<nav_msgs::Odometry>("odometry", 10);
   worker_ = std::make_unique<Worker<SensorFramePtr>>(
       queue_size_, [this](const SensorFramePtr& frame) { process(frame); },

@@ -104,7 +104,7 @@ void TsdfFusionNodelet::start() {
   NODELET_INFO_STREAM("OpenCL device: " << map_->compute->selfTestReport());
   warmUp(*map_->compute, parameters_);
 
-  view_publisher_ = handle.advertise<MapViewMessage>("model_view", 100);
+  view_publisher_ = handle.advertise<MapViewMessage>("model_view", kProcessQueue);
   status_publisher_ = handle.advertise<MapStatus>("status", 100, true);
   picture_publisher_ = handle.advertise<sensor_msgs::Image>("model_view/image", 1);
   worker_ = std::make_unique<Worker<TrackedFramePtr>>(
@@ -123,12 +123,12 @@ void TsdfFusionNodelet::start() {
 void TsdfFusionNodelet::loadAll() {
   ParameterTable table = parameters_.tsdf_fusion.table();
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
-  table.push_back({"device", &device_, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best", {}, true});
+  table.push_back(deviceRow(device_));
   table.push_back({"map_frame", &map_frame_, 0, 0, "frame of the map", {}, true});
   table.push_back({"tracking", &tracking_, 0, 0,
                    "internal: frames with poses from icp_tracking; external: frames from the topics, poses from tf at their stamps",
                    {"internal", "external"}, true});
-  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames with poses that wait at most; the oldest are dropped", {}, true});
+  table.push_back(queueSizeRow(queue_size_));
   table.push_back({"tf_queue_size", &tf_queue_size_, 1, 10000, "external: frames that wait for their pose at most", {}, true});
   table.push_back({"on_clock_jump", &on_clock_jump_, 0, 0,
                    "external: what a clock that goes back does to the map", {"reset", "keep"}});
@@ -150,14 +150,9 @@ void TsdfFusionNodelet::applyParameters() {
 }
 
 void TsdfFusionNodelet::subscribeTracker() {
-  frame_subscriber_ = getMTNodeHandle().subscribe<TrackedFrameMessage>(
-      "icp_tracking/frame", 100, [this](const TrackedFrameMessage::ConstPtr& message) {
-        counter_.receive();
-        if (message->payload != nullptr) return worker_->push(message->payload);
-        counter_.drop("from another process");
-        NODELET_ERROR_THROTTLE(5.0, "icp_tracking runs in another process; load it in the same nodelet manager, or set "
-                                    "tracking: external");
-      });
+  frame_subscriber_ = subscribeInProcess<TrackedFrame>(
+      "icp_tracking/frame", "icp_tracking", Carries::kFrames,
+      [this](const TrackedFrameMessage::ConstPtr& message) { worker_->push(message->payload); });
 }
 
 void TsdfFusionNodelet::subscribeSensor() {
