@@ -4,7 +4,8 @@ namespace depth_fusion {
 
 ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
                                                const CameraIntrinsics& camera)
-    : parameters_(withinSensorRange(parameters)),
+    : compute_(compute),
+      parameters_(withinSensorRange(parameters)),
       map_(compute, parameters.map),
       odometry_(parameters.texture_odometry),
       mapper_(compute, map_, parameters, camera),
@@ -17,10 +18,11 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   const StageTimers::Scope timer(timers_, "frame");
   FrameResult result;
   const TexturedFrame textured = next_.valid() ? next_.get() : findMotion(frame);
-  if (next != nullptr) next_ = std::async(std::launch::async, [this, after = *next] { return findMotion(after); });
+  if (next != nullptr)
+    next_ = std::async(std::launch::async, [this, after = *next] { return findMotion(after); });
   if (parameters_.texture_odometry.enabled) timers_.record("texture_odometry", textured.milliseconds);
   result.tracking = tracker_.track(frame, textured.motion, textured.features, view_, timers_);
-  if (result.tracking.status != TrackingStatus::kLost) fuse(frame, result);
+  if (result.tracking.status != TrackingStatus::kLost) fuse(frame, *tracker_.depth(), result);
   if (result.tracking.status == TrackingStatus::kLost) {
     tracker_.reject();
     return result;
@@ -35,8 +37,9 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   FrameResult result;
   result.tracking.status = TrackingStatus::kTracking;
   result.tracking.T_W_D = T_W_D;
-  tracker_.follow(frame, T_W_D, timers_);
-  fuse(frame, result);
+  if (!posed_preprocessor_)
+    posed_preprocessor_ = std::make_unique<PosedPreprocessor>(compute_, parameters_, frame.intrinsics);
+  fuse(frame, posed_preprocessor_->process(frame, T_W_D, timers_), result);
   return result;
 }
 
@@ -56,8 +59,8 @@ ReconstructionPipeline::TexturedFrame ReconstructionPipeline::findMotion(const R
   return textured;
 }
 
-void ReconstructionPipeline::fuse(const RgbdFrame& frame, FrameResult& result) {
-  const MappingResult mapping = mapper_.fuse(frame, *tracker_.depth(), result.tracking.T_W_D, timers_);
+void ReconstructionPipeline::fuse(const RgbdFrame& frame, const DepthFrame& depth, FrameResult& result) {
+  const MappingResult mapping = mapper_.fuse(frame, depth, result.tracking.T_W_D, timers_);
   result.fusion = mapping.fusion;
   result.color = mapping.color;
   if (mapping.fused()) return;

@@ -19,21 +19,21 @@ class FrameTracker {
 
   // For the frames to come. Throws Error if they do not fit together.
   void setParameters(const PipelineParameters& parameters);
-  // The frame's pose by its depth against `view`, the model view of the last fused frame (null before the first one: then
-  // the frame gets the pose `start`). `motion` is that of `features`, the frame's, against the frame before. A lost
-  // frame and those after it are tried against keyframes and against the last pose, until one fits. Every result
-  // is to be answered by accept or reject.
-  TrackingResult track(const RgbdFrame& frame, const TextureOdometryResult& motion, const FrameFeatures& features,
-                       const ModelView* view, StageTimers& timers, const Pose& start = Pose::Identity());
-  // Takes the pose as the one that the next frame is predicted from, and the frame as a keyframe if none is near.
+  // The frame's pose by its depth against `view`, the model view of the last fused frame (null before the
+  // first one: then the frame gets the pose `start`). `motion` is that of `features`, the frame's, against
+  // the frame before. A lost frame and those after it are tried against keyframes and against the last pose,
+  // until one fits. Every result is to be answered by accept or reject.
+  TrackingResult track(const RgbdFrame& frame, const TextureOdometryResult& motion,
+                       const FrameFeatures& features, const ModelView* view, StageTimers& timers,
+                       const Pose& start = Pose::Identity());
+  // Takes the pose as the one that the next frame is predicted from, and the frame as a keyframe if none is
+  // near.
   void accept(const RgbdFrame& frame, const FrameFeatures& features, const Pose& T_W_D);
   // The frame is lost.
   void reject();
 
   // A frame that is not tracked, for want of time: the next one is predicted from where its texture moved.
   void skip(double stamp_s, const TextureOdometryResult& motion);
-  // Preprocesses a frame whose pose is known from elsewhere.
-  void follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers);
   // Forgets everything.
   void reset();
   // Lost, and last seen there.
@@ -46,14 +46,13 @@ class FrameTracker {
  private:
   // The texture's motion since the frame before; the last pose without one. Updates the velocity.
   MotionPrior predict(double stamp_s, const TextureOdometryResult& motion);
-  const DepthFrame& preprocess(const RgbdFrame& frame, StageTimers& timers);
   // `start`, if the frame has enough depth for the next one to be tracked against.
   TrackingResult begin(const RgbdFrame& frame, const Pose& start) const;
-  // Against the model seen from where keyframes, or after a loss the prior, say that the sensor is. `lost` without one.
+  // Against the model seen from where keyframes, or after a loss the prior, say that the sensor is. `lost`
+  // without one.
   TrackingResult relocalise(const DepthFrame& depth, const FrameFeatures& features, const MotionPrior& prior,
                             const TrackingResult& lost, StageTimers& timers);
   TrackingResult trackFrom(const MotionPrior& prior, const DepthFrame& depth, StageTimers& timers);
-  void moveTo(const RgbdFrame& frame, const Pose& T_W_D);
 
   ComputeContext& compute_;
   PipelineParameters parameters_;
@@ -61,10 +60,11 @@ class FrameTracker {
   DepthPreprocessor preprocessor_;
   IcpTracker tracker_;
   Relocaliser relocaliser_;
-  TextureOdometry matcher_;               // to keyframes
-  std::optional<StampedPose> tracked_;    // the frame before; none if that was lost
-  Pose T_W_expected_ = Pose::Identity();  // the frame before: as tracked last, then as the texture moved on from there
-  double stamp_s_ = 0.0;                  // of the frame before
+  TextureOdometry matcher_;             // to keyframes
+  std::optional<StampedPose> tracked_;  // the frame before; none if that was lost
+  Pose T_W_expected_ =
+      Pose::Identity();   // the frame before: as tracked last, then as the texture moved on from there
+  double stamp_s_ = 0.0;  // of the frame before
   Vector6d velocity_ = Vector6d::Zero();  // of D in D, per second
 };
 

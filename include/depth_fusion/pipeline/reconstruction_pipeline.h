@@ -5,6 +5,7 @@
 
 #include "depth_fusion/pipeline/frame_tracker.h"
 #include "depth_fusion/pipeline/mapper.h"
+#include "depth_fusion/pipeline/posed_preprocessor.h"
 
 namespace depth_fusion {
 
@@ -21,8 +22,8 @@ class ReconstructionPipeline {
   ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
                          const CameraIntrinsics& camera);
 
-  // A lost frame changes nothing in the map. `next` is the frame that the next call is for, if it is there already: its
-  // texture odometry runs on a thread of its own meanwhile.
+  // A lost frame changes nothing in the map. `next` is the frame that the next call is for, if it is there
+  // already: its texture odometry runs on a thread of its own meanwhile.
   FrameResult processFrame(const RgbdFrame& frame, const RgbdFrame* next = nullptr);
 
   // The same with a pose from elsewhere in place of tracking; lost only if there is no depth.
@@ -43,8 +44,9 @@ class ReconstructionPipeline {
 
   TexturedFrame findMotion(const RgbdFrame& frame);
   // Lost if nothing could be fused.
-  void fuse(const RgbdFrame& frame, FrameResult& result);
+  void fuse(const RgbdFrame& frame, const DepthFrame& depth, FrameResult& result);
 
+  ComputeContext& compute_;
   PipelineParameters parameters_;
   StageTimers timers_;
   BlockSparseMap map_;
@@ -52,6 +54,8 @@ class ReconstructionPipeline {
   std::future<TexturedFrame> next_;  // valid if the last call was given a next frame
   Mapper mapper_;
   FrameTracker tracker_;
+  std::unique_ptr<PosedPreprocessor>
+      posed_preprocessor_;           // made for the first frame with a pose from elsewhere
   const ModelView* view_ = nullptr;  // of the last fused frame; none before the first
 };
 
