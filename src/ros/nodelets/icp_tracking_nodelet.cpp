@@ -55,7 +55,7 @@ class IcpTrackingNodelet : public StageNodelet {
   CameraIntrinsics camera_;
   std::shared_ptr<const TextureOdometryParameters> texture_;  // as last seen
   std::shared_ptr<const MapView> map_;         // what fusion last showed of it; null: nothing yet
-  std::shared_ptr<const ModelView> rendered_;  // what render() returned last
+  std::shared_ptr<const ModelView> rendered_;  // what render() returned last, while a frame is tracked
   uint32_t clock_jumps_ = 0;
 
   SkippedFrames skipped_;
@@ -245,6 +245,7 @@ TrackingResult IcpTrackingNodelet::track(const TexturedFramePtr& frame, StageTim
   const TrackingResult result =
       tracker_->track(frame->sensor->rgbd, frame->motion, frame->features, view(), timers, start);
   if (result.status == TrackingStatus::kLost) tracker_->reject();
+  rendered_.reset();
   return result;
 }
 

@@ -40,10 +40,10 @@ class TsdfFusionNodelet : public StageNodelet {
   void prepare(const CameraIntrinsics& camera);
   bool isFromBeforeReset(const TrackedFrame& frame) const;
   bool beginsMap(const TrackedFrame& frame);
+  // The caller of these and of those marked below holds the map's mutex.
   Outcome map(const TrackedFrame& frame, StageTimers& timers);
   Outcome fuse(const TrackedFrame& frame, StageTimers& timers);
   void render(const TrackedFrame& frame, StageTimers& timers);
-  // The caller of this one and of those marked below holds the map's mutex.
   void answer(const std_msgs::Header& header, const Outcome& outcome);
   void publishStatus(const std_msgs::Header& header, const Outcome& outcome);
 
@@ -111,33 +111,33 @@ void TsdfFusionNodelet::start() {
 }
 
 void TsdfFusionNodelet::loadAll() {
+  const ParameterTable own = {deviceRow(device_),
+                              {"map_frame", &map_frame_, 0, 0, "frame of the map", {}, true},
+                              {"tracking",
+                               &tracking_,
+                               0,
+                               0,
+                               "internal: frames with poses from icp_tracking; external: frames from the "
+                               "topics, poses from tf at their stamps",
+                               {"internal", "external"},
+                               true},
+                              queueSizeRow(queue_size_),
+                              {"tf_queue_size",
+                               &tf_queue_size_,
+                               1,
+                               10000,
+                               "external: frames that wait for their pose at most",
+                               {},
+                               true},
+                              {"on_clock_jump",
+                               &on_clock_jump_,
+                               0,
+                               0,
+                               "external: what a clock that goes back does to the map",
+                               {"reset", "keep"}}};
   ParameterTable table = parameters_.tsdf_fusion.table();
-  for (const ParameterTable& rows : {rgbd_.table(), picture_parameters_.table()})
+  for (const ParameterTable& rows : {rgbd_.table(), own, picture_parameters_.table()})
     table.insert(table.end(), rows.begin(), rows.end());
-  table.push_back(deviceRow(device_));
-  table.push_back({"map_frame", &map_frame_, 0, 0, "frame of the map", {}, true});
-  table.push_back({"tracking",
-                   &tracking_,
-                   0,
-                   0,
-                   "internal: frames with poses from icp_tracking; external: frames from the topics, poses "
-                   "from tf at their stamps",
-                   {"internal", "external"},
-                   true});
-  table.push_back(queueSizeRow(queue_size_));
-  table.push_back({"tf_queue_size",
-                   &tf_queue_size_,
-                   1,
-                   10000,
-                   "external: frames that wait for their pose at most",
-                   {},
-                   true});
-  table.push_back({"on_clock_jump",
-                   &on_clock_jump_,
-                   0,
-                   0,
-                   "external: what a clock that goes back does to the map",
-                   {"reset", "keep"}});
   loadParameters(table, {{"map", parameters_.map.table()},
                          {"depth_sensor", parameters_.depth_sensor.table()},
                          {"preprocessing", parameters_.preprocessing.table()},
@@ -169,27 +169,21 @@ void TsdfFusionNodelet::process(const TrackedFramePtr& frame) {
   StageTimers timers;
   Outcome outcome;
   const std_msgs::Header& header = frame->sensor->header;
-  {
-    const std::lock_guard<std::mutex> lock(map_->mutex);
-    try {
-      prepare(frame->sensor->rgbd.intrinsics);
-      outcome = map(*frame, timers);
-      if (outcome.accepted) render(*frame, timers);
-      answer(header, outcome);
-      if (outcome.accepted)
-        picture_->publish(header, map_->mapper(camera_).renderer(), picture_parameters_, timers);
-    } catch (const std::exception& error) {
-      outcome.reason = error.what();
-      NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << error.what());
-      answer(header, outcome);
-    }
-    if (outcome.accepted) {
-      counter_.process();
-    } else {
-      counter_.drop(outcome.reason);
-    }
-    publishStatus(header, outcome);
+  const std::lock_guard<std::mutex> lock(map_->mutex);
+  try {
+    prepare(frame->sensor->rgbd.intrinsics);
+    outcome = map(*frame, timers);
+    if (outcome.accepted) render(*frame, timers);
+    answer(header, outcome);
+    if (outcome.accepted)
+      picture_->publish(header, map_->mapper(camera_).renderer(), picture_parameters_, timers);
+  } catch (const std::exception& error) {
+    outcome.reason = error.what();
+    NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << error.what());
+    answer(header, outcome);
   }
+  outcome.accepted ? counter_.process() : counter_.drop(outcome.reason);
+  publishStatus(header, outcome);
   recordTimings(timers);
 }
 
@@ -235,14 +229,7 @@ TsdfFusionNodelet::Outcome TsdfFusionNodelet::fuse(const TrackedFrame& frame, St
   const MappingResult result = mapper.fuse(rgbd, depth, T_W_D, timers);
   if (map_->isFollowed()) map_->noteUpdated(mapper.updatedBlocks(result));
   if (!result.fused()) return {false, false, notFusedReason()};
-  Outcome outcome{true, true, "",
-                  static_cast<size_t>(result.fusion.blocks_requested - result.fusion.blocks_allocated)};
-  if (outcome.blocks_left_out > 0) {
-    outcome.reason = "the pool is full: new surface is left out; raise map/pool_mib or map/voxel_size_m";
-  } else if (result.fusion.points_outside > 0) {
-    outcome.reason = "surface outside of the map's window is left out; raise map/blocks_per_axis";
-  }
-  return outcome;
+  return {true, true, leftOutReason(result), result.fusion.blocks_requested - result.fusion.blocks_allocated};
 }
 
 void TsdfFusionNodelet::render(const TrackedFrame& frame, StageTimers& timers) {
