@@ -4,19 +4,9 @@
 #include <utility>
 
 #include "pipeline/depth_in_range.h"
+#include "pipeline/preprocessing_step.h"
 
 namespace depth_fusion {
-namespace {
-
-// A longer gap says nothing about how fast the sensor moves now.
-constexpr double kMaxVelocityGap_s = 0.25;
-
-Vector6d velocityOver(const Pose& T_before_now, double seconds) {
-  if (!(seconds > 0.0 && seconds < kMaxVelocityGap_s)) return Vector6d::Zero();
-  return twistFromPose(T_before_now) / seconds;
-}
-
-}  // namespace
 
 FrameTracker::FrameTracker(ComputeContext& compute, const PipelineParameters& parameters,
                            const CameraIntrinsics& camera, RenderView render)
@@ -38,7 +28,7 @@ void FrameTracker::setParameters(const PipelineParameters& parameters) {
 
 MotionPrior FrameTracker::prepare(const RgbdFrame& frame, const TextureOdometryResult& motion, StageTimers& timers) {
   const MotionPrior prior = predict(frame.stamp_s, motion);
-  preprocess(frame, timers);
+  preprocess(compute_, preprocessor_, frame, velocity_, timers);
   return prior;
 }
 
@@ -52,18 +42,17 @@ TrackingResult FrameTracker::track(const RgbdFrame& frame, const MotionPrior& pr
 }
 
 void FrameTracker::accept(const RgbdFrame& frame, const FrameFeatures& features, const Pose& T_W_D) {
-  moveTo(frame, T_W_D);
+  velocity_.setZero();
+  if (tracked_)
+    velocity_ = velocityOver(tracked_->T_W_D.inverse() * T_W_D, frame.stamp_s - tracked_->stamp_s);
+  tracked_ = {frame.stamp_s, T_W_D};
+  T_W_expected_ = T_W_D;
   relocaliser_.add(features, T_W_D);
 }
 
 void FrameTracker::reject() { tracked_.reset(); }
 
 void FrameTracker::skip(double stamp_s, const TextureOdometryResult& motion) { predict(stamp_s, motion); }
-
-void FrameTracker::follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers) {
-  moveTo(frame, T_W_D);
-  preprocess(frame, timers);
-}
 
 void FrameTracker::reset() {
   relocaliser_.reset();
@@ -87,12 +76,6 @@ MotionPrior FrameTracker::predict(double stamp_s, const TextureOdometryResult& m
   return prior;
 }
 
-void FrameTracker::preprocess(const RgbdFrame& frame, StageTimers& timers) {
-  const StageTimers::Scope timer(timers, "preprocessing");
-  preprocessor_.process(frame, velocity_);
-  compute_.finish();
-}
-
 TrackingResult FrameTracker::begin(const RgbdFrame& frame, const Pose& start) const {
   const int points = cv::countNonZero(depthInRange(frame, parameters_.preprocessing));
   TrackingResult first;
@@ -106,7 +89,8 @@ TrackingResult FrameTracker::begin(const RgbdFrame& frame, const Pose& start) co
 }
 
 TrackingResult FrameTracker::relocalise(const DepthFrame& depth, const FrameFeatures& features,
-                                        const MotionPrior& prior, const TrackingResult& lost, StageTimers& timers) {
+                                        const MotionPrior& prior, const TrackingResult& lost,
+                                        StageTimers& timers) {
   const StageTimers::Scope timer(timers, "relocalisation");
   for (const Keyframe* keyframe : relocaliser_.candidates(features)) {
     const TextureOdometryResult motion = matcher_.match(keyframe->features, features, true);
@@ -117,7 +101,8 @@ TrackingResult FrameTracker::relocalise(const DepthFrame& depth, const FrameFeat
   return tracked_ ? lost : trackFrom(prior, depth, timers);
 }
 
-TrackingResult FrameTracker::trackFrom(const MotionPrior& prior, const DepthFrame& depth, StageTimers& timers) {
+TrackingResult FrameTracker::trackFrom(const MotionPrior& prior, const DepthFrame& depth,
+                                       StageTimers& timers) {
   TrackingResult result = tracker_.track(depth, render_(prior.T_W_D), prior, timers);
   if (result.status == TrackingStatus::kLost ||
       result.inlier_fraction >= parameters_.relocalisation.min_inlier_fraction) {
@@ -127,13 +112,6 @@ TrackingResult FrameTracker::trackFrom(const MotionPrior& prior, const DepthFram
   result.reason = "still lost: only " + std::to_string(std::lround(100.0 * result.inlier_fraction)) +
                   " % of the points fit the map";
   return result;
-}
-
-void FrameTracker::moveTo(const RgbdFrame& frame, const Pose& T_W_D) {
-  velocity_.setZero();
-  if (tracked_) velocity_ = velocityOver(tracked_->T_W_D.inverse() * T_W_D, frame.stamp_s - tracked_->stamp_s);
-  tracked_ = {frame.stamp_s, T_W_D};
-  T_W_expected_ = T_W_D;
 }
 
 }  // namespace depth_fusion

@@ -10,7 +10,8 @@ Mapper::Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParam
       map_(map),
       fusion_(compute, map, parameters.tsdf_fusion),
       renderer_(compute, map, camera, parameters.model_view) {
-  if (map.parameters().color) color_fusion_ = std::make_unique<ColorFusion>(compute, map, parameters.color_fusion);
+  if (map.parameters().color)
+    color_fusion_ = std::make_unique<ColorFusion>(compute, map, parameters.color_fusion);
 }
 
 void Mapper::setParameters(const PipelineParameters& parameters) {
@@ -19,7 +20,8 @@ void Mapper::setParameters(const PipelineParameters& parameters) {
   parameters_ = withinSensorRange(parameters);
 }
 
-MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D, StageTimers& timers) {
+MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D,
+                           StageTimers& timers) {
   MappingResult result;
   if (map_.usage().blocks == 0) map_.reset(windowCentre(frame, parameters_.preprocessing, T_W_D));
   result.fusion = fusion_.integrate(depth, T_W_D, timers);
@@ -31,11 +33,20 @@ MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, cons
 }
 
 const ModelView& Mapper::render(const Pose& T_W_D, StageTimers& timers) {
-  return renderer_.render(T_W_D, parameters_.preprocessing.min_range_m, parameters_.preprocessing.max_range_m, timers);
+  return renderer_.render(T_W_D, parameters_.preprocessing.min_range_m, parameters_.preprocessing.max_range_m,
+                          timers);
 }
 
 std::vector<int> Mapper::updatedBlocks(const MappingResult& last) const {
   return fusion_.visibleBlocks().read<int>(last.fusion.blocks_updated);
+}
+
+std::string leftOutReason(const MappingResult& result) {
+  if (result.fusion.blocks_allocated < result.fusion.blocks_requested)
+    return "the pool is full: new surface is left out; raise map/pool_mib or map/voxel_size_m";
+  if (result.fusion.points_outside > 0)
+    return "surface outside of the map's window is left out; raise map/blocks_per_axis";
+  return "";
 }
 
 std::string notFusedReason() {

@@ -72,10 +72,20 @@ void MeshChunks::noteAll() {
   }
 }
 
+void MeshChunks::noteNext(size_t count) {
+  for (; count > 0; --count) {
+    if (in_turn_.empty()) in_turn_.assign(has_surface_.begin(), has_surface_.end());
+    if (in_turn_.empty()) return;
+    if (is_changed_.insert(in_turn_.back()).second) changed_.push_back(in_turn_.back());
+    in_turn_.pop_back();
+  }
+}
+
 void MeshChunks::noteReset() {
   changed_.clear();
   is_changed_.clear();
   has_surface_.clear();
+  in_turn_.clear();
 }
 
 void MeshChunks::noteAround(const BlockIndex& block) {

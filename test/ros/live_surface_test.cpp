@@ -53,6 +53,7 @@ TEST_F(LiveSurfaceTest, markersFollowTheSurface) {
 }
 
 TEST_F(LiveSurfaceTest, onlyWhatChangedIsPublished) {
+  graph_.handle().setParam("surface_mesh/refresh_chunks", 0);
   load();
   Screen screen(graph_.handle(), "surface_mesh/markers");
   map_.show(twoBalls());
@@ -87,8 +88,19 @@ TEST_F(LiveSurfaceTest, newParametersShowAllOfItAnew) {
   EXPECT_NE(points.await([](const auto& c) { return c.width * c.height > 60; }, 30.0), nullptr);
 }
 
-// All the subscribers of a process are one viewer of a topic, so the early one looks at another topic.
+// All the subscribers of a process are one viewer of a topic: nobody tells of the late one.
+TEST_F(LiveSurfaceTest, lateViewersBesideAnotherGetAllOfIt) {
+  load();
+  Screen early(graph_.handle(), "surface_mesh/markers");
+  map_.show(twoBalls());
+  EXPECT_TRUE(early.shows(map_.mesh()));
+  Screen late(graph_.handle(), "surface_mesh/markers");
+  EXPECT_TRUE(late.shows(map_.mesh()));
+}
+
+// The early one looks at another topic.
 TEST_F(LiveSurfaceTest, lateViewersGetAllOfIt) {
+  graph_.handle().setParam("surface_mesh/refresh_chunks", 0);
   graph_.handle().setParam("surface_mesh/chunks_per_update", 2);
   load();
   Listener<sensor_msgs::PointCloud2> early(graph_.handle(), "surface_mesh/points");
@@ -135,7 +147,8 @@ TEST_F(LiveSurfaceTest, subscribersShareOneMessage) {
   map_.show(ball({0.0, 0.0, 0.0}, 0.05));
   EXPECT_TRUE(eventually([&] {
     const auto a = one.all(), b = other.all();
-    return std::find_first_of(a.begin() + seen_by_one, a.end(), b.begin() + seen_by_other, b.end()) != a.end();
+    return std::find_first_of(a.begin() + seen_by_one, a.end(), b.begin() + seen_by_other, b.end()) !=
+           a.end();
   }));
 }
 

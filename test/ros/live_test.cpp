@@ -8,6 +8,8 @@
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <thread>
+
 #include "ros/nodelets/frames.h"
 #include "ros/nodelets/shared_map.h"
 #include "support/nodelet_graph.h"
@@ -69,7 +71,8 @@ class Live : public testing::Test {
   }
 
   template <class Service>
-  bool call(const std::string& name, typename Service::Request& request, typename Service::Response& response) {
+  bool call(const std::string& name, typename Service::Request& request,
+            typename Service::Response& response) {
     ros::ServiceClient client = graph_.handle().serviceClient<Service>(name);
     return client.waitForExistence(ros::Duration(kPatience_s)) && client.call(request, response);
   }
@@ -130,7 +133,8 @@ TEST_F(Live, PosesGoOutAsMessagesAndOverTf) {
   EXPECT_EQ(pose->header.frame_id, "map_poses");
   EXPECT_GT(pose->pose.covariance[0], 0.0);
 
-  ASSERT_TRUE(eventually([&] { return buffer.canTransform("map_poses", "camera_rgb_optical_frame", stamp); }));
+  ASSERT_TRUE(
+      eventually([&] { return buffer.canTransform("map_poses", "camera_rgb_optical_frame", stamp); }));
   const auto transform = buffer.lookupTransform("map_poses", "camera_rgb_optical_frame", stamp);
   expectPose(fromMessage(transform.transform), poseOf(pose->pose.pose), 1e-9, 1e-7);
 
@@ -153,7 +157,8 @@ TEST_F(Live, WithOdometryTfIsMapToOdom) {
   tf2_ros::StaticTransformBroadcaster mounting;
   tf2_ros::TransformBroadcaster odometry;
   Pose T_base_camera = motionOf({-90.0, 0.0, -90.0}, {0.1, 0.0, 0.4});
-  mounting.sendTransform(makeTransform(makeHeader(ros::Time(1.0), "base_link"), "robot_optical", T_base_camera));
+  mounting.sendTransform(
+      makeTransform(makeHeader(ros::Time(1.0), "base_link"), "robot_optical", T_base_camera));
   const FakeCamera unused(graph_.handle());
   FakeCamera camera(graph_.handle(), "robot_optical");
   loadTracking();
@@ -180,7 +185,74 @@ TEST_F(Live, WithOdometryTfIsMapToOdom) {
   EXPECT_EQ(parent, "base_link");
   // The first frame puts odom at the map's origin; later map -> odom takes out what odometry is off by.
   const Pose motion = frames.front().T_W_D->inverse() * *frames.back().T_W_D;
-  expectPose(fromMessage(buffer.lookupTransform("map_robot", "robot_optical", stamp).transform), T_base_camera * motion);
+  expectPose(fromMessage(buffer.lookupTransform("map_robot", "robot_optical", stamp).transform),
+             T_base_camera * motion);
+}
+
+// The camera's place on the robot becomes known after the first image only.
+TEST_F(Live, TheFirstFrameWaitsForATreeOnTfThatComesLate) {
+  graph_.handle().setParam("icp_tracking/map_frame", "map_late");
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  tf2_ros::StaticTransformBroadcaster mounting;
+  FakeCamera camera(graph_.handle(), "late_optical");
+  loadTracking();
+  const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(3));
+  camera.publish(frames[0]);
+  ros::WallDuration(0.1).sleep();
+  const Pose T_base_camera = motionOf({-90.0, 0.0, -90.0}, {0.1, 0.0, 0.4});
+  mounting.sendTransform(
+      makeTransform(makeHeader(ros::Time(1.0), "late_base"), "late_optical", T_base_camera));
+  for (const RgbdFrame& frame : frames) {
+    if (&frame != &frames[0]) camera.publish(frame);
+    ASSERT_NE(map_status_.awaitStamp(camera.headerOf(frame).stamp), nullptr);
+  }
+  const ros::Time stamp = camera.headerOf(frames.back()).stamp;
+  ASSERT_TRUE(eventually([&] { return buffer.canTransform("map_late", "late_optical", stamp); }));
+  std::string parent;
+  ASSERT_TRUE(buffer._getParent("late_optical", ros::Time(0), parent));
+  EXPECT_EQ(parent, "late_base");
+  ASSERT_TRUE(buffer._getParent("late_base", ros::Time(0), parent));
+  EXPECT_EQ(parent, "map_late");
+  // The robot's frame stands at the map's origin in the first frame.
+  expectPose(poseOf(poses_.all().front()->pose.pose), T_base_camera, 1e-9, 1e-7);
+}
+
+TEST_F(Live, ATreeThatGrowsLaterIsFollowed) {
+  graph_.handle().setParam("icp_tracking/map_frame", "map_growing");
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  FakeCamera camera(graph_.handle(), "growing_optical");
+  loadTracking();
+  const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(12));
+  const auto fuseNext = [&](const RgbdFrame& frame) {
+    camera.publish(frame);
+    const auto status = map_status_.awaitStamp(camera.headerOf(frame).stamp);
+    ASSERT_TRUE(status != nullptr && status->fused);
+  };
+  for (size_t i = 0; i < 3; ++i) fuseNext(frames[i]);
+  ASSERT_TRUE(eventually([&] {
+    return buffer.canTransform("map_growing", "growing_optical", camera.headerOf(frames[2]).stamp);
+  }));
+  const Pose T_link_camera = motionOf({-90.0, 0.0, -90.0}, {0.1, 0.0, 0.4});
+  tf2_ros::TransformBroadcaster link;
+  bool followed = false;
+  for (size_t i = 3; i < frames.size() && !followed; ++i) {
+    const std_msgs::Header header = camera.headerOf(frames[i]);
+    link.sendTransform(
+        makeTransform(makeHeader(header.stamp, "growing_link"), "growing_optical", T_link_camera));
+    ASSERT_TRUE(
+        eventually([&] { return buffer.canTransform("growing_link", "growing_optical", header.stamp); }));
+    fuseNext(frames[i]);
+    ros::WallDuration(0.1).sleep();
+    if (!buffer.canTransform("map_growing", "growing_link", header.stamp)) continue;
+    followed = true;
+    const auto pose = poses_.awaitStamp(header.stamp);
+    ASSERT_NE(pose, nullptr);
+    expectPose(fromMessage(buffer.lookupTransform("map_growing", "growing_link", header.stamp).transform),
+               poseOf(pose->pose.pose) * T_link_camera.inverse(), 1e-9, 1e-7);
+  }
+  EXPECT_TRUE(followed);
 }
 
 TEST_F(Live, FusesAtPosesFromTf) {
@@ -193,8 +265,8 @@ TEST_F(Live, FusesAtPosesFromTf) {
   ASSERT_TRUE(camera_.awaitSubscribers());
   const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(12));
   const auto sendPose = [&](const RgbdFrame& frame) {
-    localisation.sendTransform(
-        makeTransform(makeHeader(camera_.headerOf(frame).stamp, "map_external"), "camera_rgb_optical_frame", *frame.T_W_D));
+    localisation.sendTransform(makeTransform(makeHeader(camera_.headerOf(frame).stamp, "map_external"),
+                                             "camera_rgb_optical_frame", *frame.T_W_D));
   };
   // The pose may come before the image or after it.
   for (size_t i = 0; i < 6; ++i) {
@@ -206,8 +278,8 @@ TEST_F(Live, FusesAtPosesFromTf) {
     ASSERT_NE(status, nullptr);
     EXPECT_TRUE(status->fused) << status->reason;
   }
-  // Frames without a pose are never fused at another one's: those that find no room in the queue are dropped and counted.
-  // The others get theirs once tf knows the poses before and after them.
+  // Frames without a pose are never fused at another one's: those that find no room in the queue are dropped
+  // and counted. The others get theirs once tf knows the poses before and after them.
   for (size_t i = 6; i < 11; ++i) camera_.publish(frames[i]);
   ros::WallDuration(0.5).sleep();
   sendPose(frames[11]);
@@ -244,27 +316,137 @@ TEST_F(Live, AResetEmptiesMapAndTracker) {
   EXPECT_TRUE(poseOf(poses_.awaitStamp(first->header.stamp)->pose.pose).translation().isZero());
 }
 
-TEST_F(Live, AFrameFromBeforeAResetIsNotFused) {
+class Resets : public Live {
+ protected:
+  // A map of three frames, and the fourth as tracked in it.
+  void mapSomeFrames() {
+    loadTracking();
+    late_ = graph_.handle().advertise<TrackedFrameMessage>("icp_tracking/frame", 1);
+    const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(4));
+    fuseAll({frames.begin(), frames.begin() + 3});
+    const Listener<TrackedFrameMessage> tracked(graph_.handle(), "icp_tracking/frame");
+    fuseAll({frames.back()});
+    frame_ = *tracked.awaitStamp(camera_.headerOf(frames.back()).stamp)->payload;
+  }
+  void reset() {
+    std_srvs::Trigger service;
+    ASSERT_TRUE(call<std_srvs::Trigger>("tsdf_fusion/reset_volume", service.request, service.response));
+  }
+  // The frame once more, with a stamp of its own, as it is on its way when the map is reset.
+  ros::Time send(ros::WallTime received, bool begins_map) {
+    auto sensor = std::make_shared<SensorFrame>(*frame_.sensor);
+    sensor->header.stamp += ros::Duration(++sent_);
+    sensor->received = received;
+    auto frame = std::make_shared<TrackedFrame>(frame_);
+    frame->sensor = sensor;
+    frame->begins_map = begins_map;
+    late_.publish(makeMessage<TrackedFrame>(sensor->header, frame));
+    return sensor->header.stamp;
+  }
+  void expectRefused(const ros::Time& stamp) {
+    const auto status = map_status_.awaitStamp(stamp);
+    ASSERT_NE(status, nullptr);
+    EXPECT_FALSE(status->fused);
+    EXPECT_EQ(status->reason, kBeforeReset);
+    EXPECT_EQ(status->blocks, 0u);
+  }
+
+  ros::Publisher late_;
+  TrackedFrame frame_;
+  int sent_ = 0;
+};
+
+TEST_F(Resets, RefuseFramesFromBefore) {
+  mapSomeFrames();
+  reset();
+  const uint32_t of_old_map = frame_.map_generation;
+  const uint32_t of_new_map = findMap(graph_.resolve("tsdf_fusion"))->generation;
+  ASSERT_NE(of_old_map, of_new_map);
+  for (const bool begins_map : {false, true}) {
+    for (const uint32_t generation : {of_old_map, of_new_map, 0u}) {
+      frame_.map_generation = generation;
+      expectRefused(send(frame_.sensor->received, begins_map));
+    }
+    // Tracked in the map that is gone, or by one who has not heard of it.
+    for (const uint32_t generation : {of_old_map, 0u}) {
+      frame_.map_generation = generation;
+      expectRefused(send(ros::WallTime::now(), begins_map));
+    }
+  }
+}
+
+// Frames and reset wait for the map at the same time; whoever comes first, nothing is left of the frames.
+TEST_F(Resets, LeaveNothingOfFramesThatWaitForTheMap) {
+  mapSomeFrames();
+  const std::shared_ptr<SharedMap> map = findMap(graph_.resolve("tsdf_fusion"));
+  for (int round = 0; round < 5; ++round) {
+    frame_.map_generation = map->generation;
+    std::unique_lock<std::mutex> busy(map->mutex);
+    const ros::Time stamp = send(ros::WallTime::now(), true);
+    ros::WallDuration(0.1).sleep();
+    std::thread resetting([this] { reset(); });
+    ros::WallDuration(0.1).sleep();
+    busy.unlock();
+    resetting.join();
+    ASSERT_NE(map_status_.awaitStamp(stamp), nullptr);
+    const std::lock_guard<std::mutex> lock(map->mutex);
+    EXPECT_EQ(map->map.usage().blocks, 0u) << round;
+  }
+}
+
+TEST(MapResets, GoByArrivalAndForAShortTimeByStamps) {
+  const MapReset reset{ros::WallTime(100.0), ros::Time(50.0)};
+  const auto isBefore = [&](double received_s, double stamp_s) {
+    SensorFrame frame;
+    frame.received = ros::WallTime(received_s);
+    frame.header.stamp = ros::Time(stamp_s);
+    return reset.isAfter(frame);
+  };
+  EXPECT_TRUE(isBefore(99.9, 60.0));
+  EXPECT_TRUE(isBefore(100.1, 49.9)) << "was on its way";
+  EXPECT_FALSE(isBefore(100.1, 50.1));
+  EXPECT_FALSE(isBefore(100.1, 1000.0)) << "stamps of another clock";
+  EXPECT_FALSE(isBefore(100.1, 1.0)) << "stamps of another clock";
+  EXPECT_FALSE(isBefore(102.0, 49.9)) << "a bag in a loop";
+}
+
+TEST_F(Live, AFullPoolSaysWhatItLeavesOut) {
+  graph_.handle().setParam("map/pool_mib", 1);
   loadTracking();
-  const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(4));
-  fuseAll({frames.begin(), frames.begin() + 3});
-  ros::Publisher late = graph_.handle().advertise<TrackedFrameMessage>("icp_tracking/frame", 1);
-  Listener<TrackedFrameMessage> tracked(graph_.handle(), "icp_tracking/frame");
-  fuseAll({frames.back()});
-  auto frame = std::make_shared<TrackedFrame>(*tracked.awaitStamp(camera_.headerOf(frames.back()).stamp)->payload);
-  std_srvs::Trigger reset;
-  ASSERT_TRUE(call<std_srvs::Trigger>("tsdf_fusion/reset_volume", reset.request, reset.response));
-  std_msgs::Header header = camera_.headerOf(frames.back());
-  header.stamp += ros::Duration(1.0);
-  auto sensor = std::make_shared<SensorFrame>(*frame->sensor);
-  sensor->header = header;
-  frame->sensor = sensor;
-  late.publish(makeMessage<TrackedFrame>(header, frame));
-  const auto status = map_status_.awaitStamp(header.stamp);
+  const auto status = fuse(simulatedFrames(smallRoom(1)).front());
   ASSERT_NE(status, nullptr);
-  EXPECT_FALSE(status->fused);
-  EXPECT_EQ(status->reason, kBeforeReset);
-  EXPECT_EQ(status->blocks, 0u);
+  EXPECT_TRUE(status->fused);
+  EXPECT_NE(status->reason.find("the pool is full"), std::string::npos) << status->reason;
+  EXPECT_GT(status->blocks_left_out, 0u);
+  EXPECT_EQ(status->blocks + status->blocks_free, 1024u);
+}
+
+// Far from where it was last, with nothing but keyframes to say where that is.
+class Keyframes : public Live {
+ protected:
+  TrackerStatus::ConstPtr jumpBack() {
+    loadTracking();
+    SimulationOptions options = smallRoom(60);
+    options.speed = 2.0;
+    std::vector<RgbdFrame> frames = simulatedFrames(options);
+    fuseAll(frames);
+    RgbdFrame back = frames[2];
+    back.stamp_s = frames.back().stamp_s + 1.0;
+    return track(back);
+  }
+};
+
+TEST_F(Keyframes, FindTheSensor) {
+  const auto status = jumpBack();
+  ASSERT_NE(status, nullptr);
+  EXPECT_EQ(status->state, TrackerStatus::TRACKING) << status->reason;
+}
+
+TEST_F(Keyframes, AreMatchedWithTheParametersOfTextureOdometry) {
+  graph_.handle().setParam("texture_odometry/max_descriptor_distance", 0);
+  const auto status = jumpBack();
+  ASSERT_NE(status, nullptr);
+  EXPECT_EQ(status->state, TrackerStatus::LOST) << "no two descriptors are the same";
 }
 
 TEST_F(Live, ModesStopMappingAndTracking) {

@@ -44,12 +44,12 @@ class OfferedMap {
   }
 
  private:
-  static MapParameters parameters(bool color) {
-    MapParameters parameters;
-    parameters.voxel_size_m = 0.005f;
-    parameters.blocks_per_axis = 32;
-    parameters.pool_mib = 16;
-    parameters.color = color;
+  static PipelineParameters parameters(bool color) {
+    PipelineParameters parameters;
+    parameters.map.voxel_size_m = 0.005f;
+    parameters.map.blocks_per_axis = 32;
+    parameters.map.pool_mib = 16;
+    parameters.map.color = color;
     return parameters;
   }
 

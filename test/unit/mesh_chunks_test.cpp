@@ -213,6 +213,24 @@ TEST_F(MeshChunksTest, allAreReportedAgainToALateReader) {
   late.expectTheWholeSurface(map);
 }
 
+TEST_F(MeshChunksTest, takenInTurnTheyAllComeAgain) {
+  BlockSparseMap map(compute(), parameters(8));
+  ChangingMap scene(compute(), map);
+  MeshChunks chunks(compute(), map, {}, 2);
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), [&](const auto& slots) { chunks.noteUpdated(slots); });
+  const size_t count = chunks.takeChanged(1000).size();
+  Viewer unnoticed;
+  for (size_t seen = 0; seen < count; seen += 3) {
+    chunks.noteNext(std::min<size_t>(3, count - seen));
+    EXPECT_EQ(unnoticed.follow(chunks).size(), std::min<size_t>(3, count - seen));
+  }
+  unnoticed.expectTheWholeSurface(map);
+  map.reset({0.0, 0.0, 0.0});
+  chunks.noteReset();
+  chunks.noteNext(3);
+  EXPECT_EQ(chunks.changedCount(), 0u);
+}
+
 TEST_F(MeshChunksTest, resetForgetsThem) {
   BlockSparseMap map(compute(), parameters(8));
   ChangingMap scene(compute(), map);

@@ -35,8 +35,6 @@ class FrameTracker {
 
   // A frame that is not tracked, for want of time: the next one is predicted from where its texture moved.
   void skip(double stamp_s, const TextureOdometryResult& motion);
-  // Preprocesses a frame whose pose is known from elsewhere.
-  void follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers);
   // Forgets everything.
   void reset();
   // Lost, and last seen there.
@@ -49,14 +47,13 @@ class FrameTracker {
  private:
   // The texture's motion since the frame before; the last pose without one. Updates the velocity.
   MotionPrior predict(double stamp_s, const TextureOdometryResult& motion);
-  void preprocess(const RgbdFrame& frame, StageTimers& timers);
   // `start`, if the frame has enough depth for the next one to be tracked against.
   TrackingResult begin(const RgbdFrame& frame, const Pose& start) const;
-  // Against the model seen from where keyframes, or after a loss the prior, say that the sensor is. `lost` without one.
+  // Against the model seen from where keyframes, or after a loss the prior, say that the sensor is. `lost`
+  // without one.
   TrackingResult relocalise(const DepthFrame& depth, const FrameFeatures& features, const MotionPrior& prior,
                             const TrackingResult& lost, StageTimers& timers);
   TrackingResult trackFrom(const MotionPrior& prior, const DepthFrame& depth, StageTimers& timers);
-  void moveTo(const RgbdFrame& frame, const Pose& T_W_D);
 
   ComputeContext& compute_;
   PipelineParameters parameters_;
@@ -64,10 +61,11 @@ class FrameTracker {
   DepthPreprocessor preprocessor_;
   IcpTracker tracker_;
   Relocaliser relocaliser_;
-  TextureOdometry matcher_;               // to keyframes
-  std::optional<StampedPose> tracked_;    // the frame before; none if that was lost
-  Pose T_W_expected_ = Pose::Identity();  // the frame before: as tracked last, then as the texture moved on from there
-  double stamp_s_ = 0.0;                  // of the frame before
+  TextureOdometry matcher_;             // to keyframes
+  std::optional<StampedPose> tracked_;  // the frame before; none if that was lost
+  Pose T_W_expected_ =
+      Pose::Identity();   // the frame before: as tracked last, then as the texture moved on from there
+  double stamp_s_ = 0.0;  // of the frame before
   Vector6d velocity_ = Vector6d::Zero();  // of D in D, per second
 };
 

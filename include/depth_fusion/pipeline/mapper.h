@@ -1,4 +1,5 @@
-// From frames with poses to the map, and from the map to model views: TSDF fusion, colour fusion, ray casting.
+// From frames with poses to the map, and from the map to model views: TSDF fusion, colour fusion, ray
+// casting.
 #pragma once
 
 #include <memory>
@@ -42,6 +43,8 @@ class Mapper {
   ModelViewRenderer renderer_;
 };
 
+// Why some of a frame was not fused; empty if all of it was.
+std::string leftOutReason(const MappingResult& result);
 // Why a frame with a pose was not fused.
 std::string notFusedReason();
 

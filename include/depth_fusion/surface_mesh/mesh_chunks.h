@@ -37,6 +37,8 @@ class MeshChunks {
   void noteUpdated(const std::vector<int>& slots);
   // Every chunk is to be extracted again, as for a reader that has none.
   void noteAll();
+  // So are the next of the chunks with a surface, in turn, for readers that may lack some.
+  void noteNext(size_t count);
   // The map was reset: forgets all chunks; none is reported as gone.
   void noteReset();
 
@@ -66,7 +68,8 @@ class MeshChunks {
   std::unique_ptr<SurfaceMeshKernels> kernels_;
   std::deque<MeshChunkIndex> changed_;  // in the order of their first change
   ChunkSet is_changed_;
-  ChunkSet has_surface_;  // as reported last
+  ChunkSet has_surface_;                 // as reported last
+  std::vector<MeshChunkIndex> in_turn_;  // those that noteNext() has still to come to
 };
 
 }  // namespace depth_fusion

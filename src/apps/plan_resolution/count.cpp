@@ -37,19 +37,19 @@ class SelectionPass {
       : options_(options), compute_(compute), begin_(begin), end_(end) {}
 
   void add(const RgbdFrame& frame, const Pose& T_W_D) {
-    if (!tracker_) {
+    if (!preprocessor_) {
       const Eigen::Vector3d centre_W = windowCentre(frame, options_.parameters.preprocessing, T_W_D);
-      tracker_ = std::make_unique<FrameTracker>(compute_, options_.parameters, frame.intrinsics, nullptr);
+      preprocessor_ = std::make_unique<PosedPreprocessor>(compute_, options_.parameters, frame.intrinsics);
       for (PlanRow* row = begin_; row != end_; ++row) {
         selected_.push_back(std::make_unique<SelectedBlocks>(compute_, row->map, centre_W));
       }
     }
-    tracker_->follow(frame, T_W_D, timers_);
-    for (const auto& selected : selected_) selected->add(*tracker_->depth(), T_W_D);
+    const DepthFrame& depth = preprocessor_->process(frame, T_W_D, timers_);
+    for (const auto& selected : selected_) selected->add(depth, T_W_D);
   }
 
   void finish() {
-    check(tracker_ != nullptr, "no frame of " + options_.input + " has a pose; see --trajectory");
+    check(preprocessor_ != nullptr, "no frame of " + options_.input + " has a pose; see --trajectory");
     for (size_t i = 0; i < selected_.size(); ++i) setBlocks(begin_[i], selected_[i]->kept());
   }
 
@@ -59,7 +59,7 @@ class SelectionPass {
   PlanRow* begin_;
   PlanRow* end_;
   StageTimers timers_;
-  std::unique_ptr<FrameTracker> tracker_;
+  std::unique_ptr<PosedPreprocessor> preprocessor_;
   std::vector<std::unique_ptr<SelectedBlocks>> selected_;
 };
 
@@ -121,7 +121,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
     parameters.map.pool_mib = poolMebibytes(row);
     std::unique_ptr<BlockSparseMap> map;
     std::unique_ptr<Mapper> mapper;
-    std::unique_ptr<FrameTracker> tracker;
+    std::unique_ptr<PosedPreprocessor> preprocessor;
     StageTimers timers;
     forEachPosed(
         "trying N " + std::to_string(row.map.blocks_per_axis) + ", M " + std::to_string(row.map.block_size),
@@ -129,10 +129,9 @@ struct BlockCounting::Frames : BlockCounting::Surface {
           if (!map) {
             map = std::make_unique<BlockSparseMap>(compute, parameters.map);
             mapper = std::make_unique<Mapper>(compute, *map, parameters, frame.intrinsics);
-            tracker = std::make_unique<FrameTracker>(compute, parameters, frame.intrinsics, nullptr);
+            preprocessor = std::make_unique<PosedPreprocessor>(compute, parameters, frame.intrinsics);
           }
-          tracker->follow(frame, T_W_D, timers);
-          mapper->fuse(frame, *tracker->depth(), T_W_D, timers);
+          mapper->fuse(frame, preprocessor->process(frame, T_W_D, timers), T_W_D, timers);
         });
     setBlocks(row, map->usage().blocks);
   }

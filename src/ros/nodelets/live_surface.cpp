@@ -15,6 +15,10 @@ ParameterTable LiveSurfaceParameters::table() {
            "edge of the chunks in which the surface is published, in blocks"},
           {"chunks_per_update", &chunks_per_update, 1, 10000,
            "chunks published at a time at most; those that changed first come first"},
+          {"refresh_chunks", &refresh_chunks, 0, 10000,
+           "chunks that did not change, published once more at each update that has room, in turn: a viewer "
+           "that was not "
+           "noticed or lost a message has all of them in the end"},
           {"triangle_share", &triangle_share, 0.001, 1.0,
            "of a chunk's triangles that its marker keeps; below 1 takes less bandwidth and more of the CPU"},
           {"point_spacing_m", &point_spacing_m, 0.0, 10.0,
@@ -42,6 +46,7 @@ MarkerArrayPtr LiveSurface::update(bool with_markers, bool with_points) {
   if (map == nullptr) return markers;
   if (beginAnew(*map) && with_markers) markers->markers.push_back(makeDeletionOfAll(map->frame_id));
   if (!with_points) points_.clear();
+  if (with_markers) refresh(*map);
   for (int i = 0; i < parameters_.chunks_per_update; ++i) {
     for (const MeshChunk& chunk : takeChunk(*map)) {
       if (with_markers) markers->markers.push_back(markerOf(map->frame_id, chunk));
@@ -60,6 +65,13 @@ bool LiveSurface::beginAnew(SharedMap& map) {
   marker_ids_.clear();
   points_.clear();
   return true;
+}
+
+void LiveSurface::refresh(SharedMap& map) {
+  const std::lock_guard<std::mutex> lock(map.mutex);
+  const size_t room = static_cast<size_t>(parameters_.chunks_per_update);
+  if (chunks_->changedCount() < room)
+    chunks_->noteNext(std::min<size_t>(parameters_.refresh_chunks, room - chunks_->changedCount()));
 }
 
 // One at a time, so that mapping never waits for more.

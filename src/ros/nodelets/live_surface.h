@@ -14,6 +14,7 @@ namespace depth_fusion {
 struct LiveSurfaceParameters {
   int chunk_blocks = 16;
   int chunks_per_update = 8;
+  int refresh_chunks = 2;
   float triangle_share = 1.0f;
   float point_spacing_m = 0.02f;
 
@@ -38,6 +39,7 @@ class LiveSurface {
  private:
   // Whether the map was reset since the last time.
   bool beginAnew(SharedMap& map);
+  void refresh(SharedMap& map);
   std::vector<MeshChunk> takeChunk(SharedMap& map);
   visualization_msgs::Marker markerOf(const std::string& frame_id, const MeshChunk& chunk);
   void keepPoints(const MeshChunk& chunk);

@@ -2,14 +2,12 @@
 
 #include <boost/make_shared.hpp>
 
-#include "depth_fusion/common/error.h"
 #include "ros/messages.h"
 
 namespace depth_fusion {
 namespace {
 
-constexpr double kTransformTimeout_s = 0.1;
-constexpr double kTransformPoll_s = 0.002;
+constexpr uint32_t kQueue = 10;
 constexpr double kPathStep_m = 0.02;
 constexpr double kPathStep_rad = 0.05;
 constexpr size_t kMaxPath = 5000;
@@ -38,64 +36,67 @@ ParameterTable PoseParameters::table() {
 
 PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_handle,
                              const PoseParameters& parameters)
-    : parameters_(parameters), listener_(buffer_, handle) {
-  pose_publisher_ = private_handle.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 10);
+    : parameters_(parameters), tree_(handle, parameters.map_frame) {
+  pose_publisher_ = private_handle.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
   path_publisher_ = private_handle.advertise<nav_msgs::Path>("path", 1);
 }
 
 Pose PosePublisher::startPose(const std_msgs::Header& camera) {
-  if (root_.empty()) findRoot(camera.frame_id);
-  if (root_ != camera.frame_id) return rootToCamera(camera);
+  findRoot(camera.frame_id);
+  if (root_.frame != camera.frame_id) return tree_.cameraIn(root_.frame, camera);
   return parameters_.level_start ? levelCamera() : Pose::Identity();
 }
 
 void PosePublisher::findRoot(const std::string& camera_frame) {
-  sends_ = parameters_.publish_tf;
-  root_ = parameters_.odom_frame.empty() ? parameters_.base_frame : parameters_.odom_frame;
-  if (!root_.empty()) return;
-  root_ = camera_frame;
-  for (std::string parent; buffer_._getParent(root_, ros::Time(0), parent); root_ = parent) {
-    if (parent != parameters_.map_frame) continue;
-    ROS_ERROR("somebody else publishes %s -> %s on tf; the tracker's poses go out as messages only. Let it map at those poses "
-              "(tracking: external), or choose another map_frame",
-              parent.c_str(), root_.c_str());
-    sends_ = false;
-    return;
-  }
+  if (!root_.frame.empty()) return followRoot(camera_frame);
+  const std::string given = parameters_.odom_frame.empty() ? parameters_.base_frame : parameters_.odom_frame;
+  takeRoot(given.empty() ? tree_.settledRootOf(camera_frame) : CameraTree::Root{given});
 }
 
-Pose PosePublisher::rootToCamera(const std_msgs::Header& camera) const {
-  if (root_ == camera.frame_id) return Pose::Identity();
-  // By the wall's clock: a simulated one may stand still.
-  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(kTransformTimeout_s);
-  while (!buffer_.canTransform(root_, camera.frame_id, camera.stamp) && ros::WallTime::now() < give_up)
-    ros::WallDuration(kTransformPoll_s).sleep();
-  try {
-    return fromMessage(buffer_.lookupTransform(root_, camera.frame_id, camera.stamp).transform);
-  } catch (const tf2::TransformException& error) {
-    throw Error(std::string("tf: ") + error.what());
-  }
+void PosePublisher::followRoot(const std::string& camera_frame) {
+  if (!parameters_.odom_frame.empty() || !parameters_.base_frame.empty()) return;
+  const CameraTree::Root root = tree_.rootOf(camera_frame);
+  if (root == root_) return;
+  ROS_WARN(
+      "the camera's tree on tf has changed: %s at the top, no longer %s; the map stays as it began. Who "
+      "listened before may "
+      "know %s -> %s still; give odom_frame or base_frame to be sure from the start",
+      root.frame.c_str(), root_.frame.c_str(), parameters_.map_frame.c_str(), root_.frame.c_str());
+  takeRoot(root);
 }
 
-void PosePublisher::publish(const std_msgs::Header& camera, const Pose& T_map_camera, const Matrix6d& covariance) {
+void PosePublisher::takeRoot(const CameraTree::Root& root) {
+  root_ = root;
+  T_map_root_.reset();
+  if (!root.in_map) return tree_.leaveOut(root.frame);
+  ROS_ERROR(
+      "somebody else publishes %s -> %s on tf; the tracker's poses go out as messages only. Let it map at "
+      "those poses "
+      "(tracking: external), or choose another map_frame",
+      parameters_.map_frame.c_str(), root.frame.c_str());
+}
+
+void PosePublisher::publish(const std_msgs::Header& camera, const Pose& T_map_camera,
+                            const Matrix6d& covariance) {
   const std_msgs::Header header = makeHeader(camera.stamp, parameters_.map_frame);
   auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
   pose->header = header;
   pose->pose = toMessage(T_map_camera, covariance);
   pose_publisher_.publish(pose);
   addToPath(header, T_map_camera);
-  if (root_.empty()) findRoot(camera.frame_id);
-  if (!sends_) return;
-  T_map_root_ = T_map_camera * rootToCamera(camera).inverse();
+  findRoot(camera.frame_id);
+  if (!parameters_.publish_tf || root_.in_map) return;
+  T_map_root_ = T_map_camera * tree_.cameraIn(root_.frame, camera).inverse();
   send(camera.stamp);
 }
 
 void PosePublisher::publishLost(const std_msgs::Header& camera) {
-  if (sends_ && T_map_root_ && root_ != camera.frame_id) send(camera.stamp);
+  if (T_map_root_ && root_.frame != camera.frame_id) send(camera.stamp);
 }
 
 void PosePublisher::send(const ros::Time& stamp) {
-  broadcaster_.sendTransform(makeTransform(makeHeader(stamp, parameters_.map_frame), root_, *T_map_root_));
+  broadcaster_.sendTransform(
+      makeTransform(makeHeader(stamp, parameters_.map_frame), root_.frame, *T_map_root_));
 }
 
 void PosePublisher::reset() {
@@ -105,7 +106,8 @@ void PosePublisher::reset() {
 
 void PosePublisher::addToPath(const std_msgs::Header& header, const Pose& T_map_camera) {
   const Pose step = T_map_last_.inverse() * T_map_camera;
-  if (!path_.poses.empty() && step.translation().norm() < kPathStep_m && rotationAngle(step) < kPathStep_rad) return;
+  if (!path_.poses.empty() && step.translation().norm() < kPathStep_m && rotationAngle(step) < kPathStep_rad)
+    return;
   T_map_last_ = T_map_camera;
   path_.header = header;
   path_.poses.emplace_back();
@@ -115,7 +117,8 @@ void PosePublisher::addToPath(const std_msgs::Header& header, const Pose& T_map_
     for (size_t i = 0; i < kMaxPath / 2; ++i) path_.poses[i] = path_.poses[2 * i];
     path_.poses.erase(path_.poses.begin() + kMaxPath / 2, path_.poses.begin() + kMaxPath);
   }
-  if (path_publisher_.getNumSubscribers() > 0) path_publisher_.publish(boost::make_shared<nav_msgs::Path>(path_));
+  if (path_publisher_.getNumSubscribers() > 0)
+    path_publisher_.publish(boost::make_shared<nav_msgs::Path>(path_));
 }
 
 }  // namespace depth_fusion

@@ -4,15 +4,13 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
-#include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <optional>
 #include <string>
 
 #include "depth_fusion/common/parameters.h"
-#include "depth_fusion/geometry/pose.h"
+#include "ros/nodelets/camera_tree.h"
 
 namespace depth_fusion {
 
@@ -26,15 +24,16 @@ struct PoseParameters {
   ParameterTable table();
 };
 
-// On tf it is map_frame -> the root of the camera's tree: of odom_frame or base_frame where one is given, else of whatever stands
-// at the top when the first frame comes (odom on a robot that has it, camera_link under a driver, or the camera itself). So
-// no frame gets a second parent.
+// On tf it is map_frame -> the root of the camera's tree: odom_frame or base_frame where one is given, else
+// whatever stands at the top (odom on a robot that has it, camera_link under a driver, or the camera itself),
+// so that no frame gets a second parent. Where somebody publishes on tf, the first frame waits until that
+// tree no longer grows. If it grows later all the same, its new root takes the place of the old one.
 class PosePublisher {
  public:
   PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_handle, const PoseParameters& parameters);
 
-  // T_map_camera for the first frame: the root then stands at the map's origin; a camera without a tree looks along x with
-  // z up (REP 103), or is the origin itself without level_start.
+  // T_map_camera for the first frame: the root then stands at the map's origin; a camera without a tree looks
+  // along x with z up (REP 103), or is the origin itself without level_start.
   Pose startPose(const std_msgs::Header& camera);
   // Throws Error if odom_frame or base_frame is not connected to the camera.
   void publish(const std_msgs::Header& camera, const Pose& T_map_camera, const Matrix6d& covariance);
@@ -45,17 +44,16 @@ class PosePublisher {
 
  private:
   void findRoot(const std::string& camera_frame);
-  Pose rootToCamera(const std_msgs::Header& camera) const;
+  void followRoot(const std::string& camera_frame);
+  void takeRoot(const CameraTree::Root& root);
   void send(const ros::Time& stamp);
   void addToPath(const std_msgs::Header& header, const Pose& T_map_camera);
 
   PoseParameters parameters_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
+  CameraTree tree_;
   tf2_ros::TransformBroadcaster broadcaster_;
   ros::Publisher pose_publisher_, path_publisher_;
-  std::string root_;  // empty until the first frame
-  bool sends_ = false;
+  CameraTree::Root root_;  // empty until the first frame
   std::optional<Pose> T_map_root_;
   nav_msgs::Path path_;
   Pose T_map_last_ = Pose::Identity();  // of the path

@@ -38,11 +38,26 @@ uint32_t newGeneration() {
 void SharedMap::reset() {
   map.reset(Eigen::Vector3d::Zero());
   generation = newGeneration();
+  mapper_.reset();
+}
+
+Mapper& SharedMap::mapper(const CameraIntrinsics& camera) {
+  if (mapper_ == nullptr || !sameCamera(camera, camera_)) {
+    mapper_ = std::make_unique<Mapper>(*compute, map, parameters_, camera);
+    camera_ = camera;
+  }
+  return *mapper_;
+}
+
+void SharedMap::setParameters(const PipelineParameters& parameters) {
+  if (mapper_ != nullptr) mapper_->setParameters(parameters);
+  parameters_ = parameters;
 }
 
 bool SharedMap::isFollowed() {
-  followers_.erase(std::remove_if(followers_.begin(), followers_.end(), [](const auto& f) { return f.expired(); }),
-                   followers_.end());
+  followers_.erase(
+      std::remove_if(followers_.begin(), followers_.end(), [](const auto& f) { return f.expired(); }),
+      followers_.end());
   return !followers_.empty();
 }
 

@@ -30,6 +30,20 @@ void StageNodelet::loadParameters(const ParameterTable& own,
   applyParameters();
 }
 
+Parameter StageNodelet::deviceRow(std::string& device) {
+  return {"device", &device, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best", {}, true};
+}
+
+Parameter StageNodelet::queueSizeRow(int& frames) {
+  return {"queue_size", &frames, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true};
+}
+
+void StageNodelet::refuseFromOtherProcess(const std::string& sender, Carries what) {
+  if (what == Carries::kFrames) counter_.drop("from another process");
+  NODELET_ERROR_STREAM_THROTTLE(
+      5.0, getName() << ": " << sender << " runs in another process; load it in the same nodelet manager");
+}
+
 void StageNodelet::startReporting() {
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
   timings_publisher_ = handle.advertise<StageTimings>("stage_timings", 1);

@@ -1,4 +1,4 @@
-// What the nodelets have in common: parameters, the account of their frames, stage timings, diagnostics.
+// What the nodelets have in common: parameters, topics between them, the account of their frames, stage timings, diagnostics.
 #pragma once
 
 #include <depth_fusion/StageTimings.h>
@@ -14,9 +14,14 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/stage_timers.h"
 #include "ros/nodelets/frame_counter.h"
+#include "ros/nodelets/process_message.h"
 #include "ros/nodelets/reconfigure_server.h"
 
 namespace depth_fusion {
+
+// Length of the queues of topics between nodelets, which never fill: their callbacks only hand on what comes. Frames wait, and are
+// dropped and counted, in a nodelet's own queue of `queue_size`.
+constexpr uint32_t kProcessQueue = 100;
 
 class StageNodelet : public nodelet::Nodelet {
  protected:
@@ -34,6 +39,17 @@ class StageNodelet : public nodelet::Nodelet {
   void loadParameters(const ParameterTable& own,
                       const std::vector<std::pair<std::string, ParameterTable>>& stages = {});
 
+  // Rows of parameters that several nodelets have.
+  static Parameter deviceRow(std::string& device);
+  static Parameter queueSizeRow(int& frames);
+
+  // Subscribes what the nodelet `sender` of the same process publishes, frames or something else. What comes from another process
+  // has no payload, so it is not taken: an error says what to do, and frames are counted as dropped.
+  enum class Carries { kFrames, kOther };
+  template <class Payload>
+  ros::Subscriber subscribeInProcess(const std::string& topic, const std::string& sender, Carries what,
+                                     std::function<void(const boost::shared_ptr<const ProcessMessage<Payload>>&)> take);
+
   // The last thing of start(): from here on diagnostics and timings go out, and parameters may change.
   void startReporting();
   // The first thing of a destructor.
@@ -46,6 +62,7 @@ class StageNodelet : public nodelet::Nodelet {
 
  private:
   void onInit() final;
+  void refuseFromOtherProcess(const std::string& sender, Carries what);
   void report();
   void diagnoseFrames(diagnostic_updater::DiagnosticStatusWrapper& status);
   void publishTimings();
@@ -62,5 +79,17 @@ class StageNodelet : public nodelet::Nodelet {
   ros::WallTimer report_timer_;
   uint64_t last_processed_ = 0;
 };
+
+template <class Payload>
+ros::Subscriber StageNodelet::subscribeInProcess(
+    const std::string& topic, const std::string& sender, Carries what,
+    std::function<void(const boost::shared_ptr<const ProcessMessage<Payload>>&)> take) {
+  return getMTNodeHandle().subscribe<ProcessMessage<Payload>>(
+      topic, kProcessQueue, [=](const boost::shared_ptr<const ProcessMessage<Payload>>& message) {
+        if (what == Carries::kFrames) counter_.receive();
+        if (message->payload == nullptr) return refuseFromOtherProcess(sender, what);
+        take(message);
+      });
+}
 
 }  // namespace depth_fusion

@@ -112,6 +112,7 @@ void SurfaceMeshNodelet::betweenFrames(const std::function<void()>& action) {
 
 void SurfaceMeshNodelet::advertise() {
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
+  // roscpp tells of a process's first subscriber to a topic; further ones have to wait for refresh_chunks.
   const auto noteViewer = [this](const ros::SingleSubscriberPublisher&) { has_late_viewer_ = true; };
   marker_publisher_ = handle.advertise<visualization_msgs::MarkerArray>("markers", 20, noteViewer);
   point_publisher_ = handle.advertise<sensor_msgs::PointCloud2>("points", 1, noteViewer);

@@ -1,5 +1,6 @@
 // Texture odometry: the motion between frames from their texture, for tracking and as nav_msgs/Odometry.
 #include <nav_msgs/Odometry.h>
+
 #include <pluginlib/class_list_macros.hpp>
 
 #include "ros/messages.h"
@@ -32,6 +33,8 @@ class TextureOdometryNodelet : public StageNodelet {
   std::string odom_frame_ = "texture_odom";
   int queue_size_ = 3;
   std::unique_ptr<TextureOdometry> odometry_;
+  std::shared_ptr<const TextureOdometryParameters>
+      odometry_parameters_;  // the same, for those who get the frames
   uint32_t clock_jumps_ = 0;
   Pose T_O_D_ = Pose::Identity();  // O: the odometry's frame, the first camera's
   Matrix6d covariance_ = Matrix6d::Zero();
@@ -45,23 +48,30 @@ class TextureOdometryNodelet : public StageNodelet {
 void TextureOdometryNodelet::start() {
   ParameterTable table = parameters_.table();
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
-  table.push_back({"odom_frame", &odom_frame_, 0, 0, "frame of the odometry: where the sensor was in the first frame", {}, true});
-  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true});
+  table.push_back({"odom_frame",
+                    &odom_frame_,
+                    0,
+                    0,
+                    "frame of the odometry: where the sensor was in the first frame",
+                    {},
+                    true});
+  table.push_back(queueSizeRow(queue_size_));
   loadParameters(table, {{"depth_sensor", depth_sensor_.table()}});
   odometry_ = std::make_unique<TextureOdometry>(parameters_, depth_sensor_);
 
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
-  frame_publisher_ = handle.advertise<TexturedFrameMessage>("frame", 10);
+  frame_publisher_ = handle.advertise<TexturedFrameMessage>("frame", kProcessQueue);
   odometry_publisher_ = handle.advertise<nav_msgs::Odometry>("odometry", 10);
   worker_ = std::make_unique<Worker<SensorFramePtr>>(
       queue_size_, [this](const SensorFramePtr& frame) { process(frame); },
       [this](const SensorFramePtr&) { counter_.drop("too slow"); });
-  subscriber_ = std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, counter_,
-                                                 [this](const SensorFramePtr& frame) { worker_->push(frame); });
+  subscriber_ = std::make_unique<RgbdSubscriber>(
+      getMTNodeHandle(), rgbd_, counter_, [this](const SensorFramePtr& frame) { worker_->push(frame); });
   startReporting();
 }
 
 void TextureOdometryNodelet::applyParameters() {
+  odometry_parameters_ = std::make_shared<TextureOdometryParameters>(parameters_);
   if (odometry_ != nullptr) odometry_->setParameters(parameters_, depth_sensor_);
   if (subscriber_ != nullptr) subscriber_->setParameters(rgbd_);
 }
@@ -78,6 +88,7 @@ void TextureOdometryNodelet::process(const SensorFramePtr& sensor) {
 void TextureOdometryNodelet::findMotion(const SensorFramePtr& sensor) {
   auto frame = std::make_shared<TexturedFrame>();
   frame->sensor = sensor;
+  frame->parameters = odometry_parameters_;
   StageTimers timers;
   if (sensor->clock_jumps != std::exchange(clock_jumps_, sensor->clock_jumps)) odometry_->reset();
   if (parameters_.enabled) {

@@ -41,7 +41,8 @@ class Worker {
     changed_.notify_all();
   }
 
-  // For work that had to wait for something else: if meanwhile as many wait as can, the item at work is dropped for the next.
+  // For work that had to wait for something else: if meanwhile as many wait as can, the item at work is
+  // dropped for the next.
   Item nextIfFull(const Item& at_work) {
     Item next = at_work;
     {
@@ -52,14 +53,6 @@ class Worker {
     }
     drop_(at_work);
     return next;
-  }
-
-  // Forgets those that wait, without a call of `drop`. Returns how many.
-  size_t clear() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const size_t cleared = items_.size();
-    items_.clear();
-    return cleared;
   }
 
   // Runs the action in the thread, before the next item; returns when it is done. Throws what it throws.
