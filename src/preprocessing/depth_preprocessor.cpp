@@ -93,7 +93,8 @@ DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const Preprocessin
 
 DepthPreprocessor::~DepthPreprocessor() = default;
 
-void DepthPreprocessor::setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor) {
+void DepthPreprocessor::setParameters(const PreprocessingParameters& parameters,
+                                      const DepthSensorParameters& sensor) {
   parameters_ = limited(parameters, sensor);
   sensor_ = sensor;
 }
@@ -105,6 +106,7 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
   const CameraIntrinsics& camera = result.levels[0].camera;
   const bool is_u16 = frame.depth.type() == CV_16UC1;
   check(is_u16 || frame.depth.type() == CV_32FC1, "depth images must hold 16-bit integers or 32-bit floats");
+  check(!distorts(frame.distortion), "a depth image's lens distortion is still in it; see FrameRegistration");
   check(frame.depth.cols == camera.width && frame.depth.rows == camera.height,
         "a depth image is " + sizeText(frame.depth.cols, frame.depth.rows) + ", the intrinsics are for " +
             sizeText(camera.width, camera.height));
@@ -115,7 +117,8 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
   BilateralArgs bilateral{{}, parameters_.bilateral_cutoff_sigmas};
   for (int i = 0; i < 3; ++i) bilateral.spatial_weights[i] = std::exp(-i * i / (2.0f * sigma_px * sigma_px));
 
-  const bool compensates = !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);
+  const bool compensates =
+      !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);
   kernels_->depthToMetres(
       is_u16, input_, compensates ? skewed_depth_ : result.raw_depth, camera,
       {static_cast<float>(frame.depth_unit_m), parameters_.min_range_m, parameters_.max_range_m});
@@ -123,8 +126,8 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
     kernels_->compensateMotion(skewed_depth_, result.raw_depth, camera, sensorMotion(velocity, parameters_));
   }
   kernels_->maxTiles(result.raw_depth, result.max_tiles, camera);
-  kernels_->filterBilateral(result.raw_depth, result.levels[0].depth, camera,
-                            toArgs(result.levels[0].sensor), bilateral);
+  kernels_->filterBilateral(result.raw_depth, result.levels[0].depth, camera, toArgs(result.levels[0].sensor),
+                            bilateral);
   for (int i = 0; i < kLevels; ++i) {
     DepthLevel& level = result.levels[i];
     if (i > 0) kernels_->halveDepth(result.levels[i - 1], level, parameters_.bilateral_cutoff_sigmas);

@@ -40,7 +40,8 @@ CameraFile parseCamera(const YAML::Node& root) {
   return file;
 }
 
-std::vector<double> readMatrix(const YAML::Node& root, const std::string& key, const std::set<size_t>& sizes) {
+std::vector<double> readMatrix(const YAML::Node& root, const std::string& key,
+                               const std::set<size_t>& sizes) {
   std::vector<double> numbers;
   try {
     numbers = root[key]["data"].as<std::vector<double>>();
@@ -51,15 +52,36 @@ std::vector<double> readMatrix(const YAML::Node& root, const std::string& key, c
   return numbers;
 }
 
+Pose readPose(const YAML::Node& root, const std::string& key) {
+  constexpr double kTolerance = 1e-4;
+  const std::vector<double> numbers = readMatrix(root, key, {16});
+  const Eigen::Matrix4d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  check((rotation * rotation.transpose()).isIdentity(kTolerance) && rotation.determinant() > 0.0 &&
+            matrix.row(3).isApprox(Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)),
+        "'" + key + "' is no rigid motion");
+  Pose pose = Pose::Identity();
+  pose.linear() = rotation;
+  pose.translation() = matrix.topRightCorner<3, 1>();
+  return orthonormalized(pose);
+}
+
 CameraFile parseRosCalibration(const YAML::Node& root) {
   CameraFile file;
   const std::vector<double> k = readMatrix(root, "camera_matrix", {9});
   file.camera = {static_cast<int>(readNumber(root, "image_width")),
-                 static_cast<int>(readNumber(root, "image_height")), k[0], k[4], k[2], k[5]};
-  const std::string model = root["distortion_model"].IsDefined() ? root["distortion_model"].as<std::string>() : "";
+                 static_cast<int>(readNumber(root, "image_height")),
+                 k[0],
+                 k[4],
+                 k[2],
+                 k[5]};
+  const std::string model =
+      root["distortion_model"].IsDefined() ? root["distortion_model"].as<std::string>() : "";
   check(model == "plumb_bob" || model == "rational_polynomial",
         "'distortion_model' is '" + model + "'; known are plumb_bob and rational_polynomial");
   file.distortion = readMatrix(root, "distortion_coefficients", {4, 5, 8});
+  if (root["depth_to_color"].IsDefined()) file.T_C_D = readPose(root, "depth_to_color");
   return file;
 }
 

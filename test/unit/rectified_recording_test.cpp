@@ -4,11 +4,12 @@
 #include <fstream>
 #include <opencv2/calib3d.hpp>
 
-#include "depth_fusion/recording/recording.h"
 #include "depth_fusion/recording/recording_writer.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "recording/text_file.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
+#include "support/test_compute.h"
 
 namespace depth_fusion {
 namespace {
@@ -22,7 +23,9 @@ cv::Matx33d cameraMatrix() {
 
 // A plane askew before a pinhole camera, its colour the square of a checkerboard.
 float depthAt(const cv::Point2d& ray) { return static_cast<float>(1.0 / (0.6 + 0.25 * ray.x - 0.2 * ray.y)); }
-uchar brightnessAt(const cv::Point2d& ray) { return static_cast<uchar>(128.0 + 100.0 * std::sin(9.0 * ray.x) * std::cos(7.0 * ray.y)); }
+uchar brightnessAt(const cv::Point2d& ray) {
+  return static_cast<uchar>(128.0 + 100.0 * std::sin(9.0 * ray.x) * std::cos(7.0 * ray.y));
+}
 
 RgbdFrame frameOf(bool distorted) {
   RgbdFrame frame;
@@ -37,7 +40,8 @@ RgbdFrame frameOf(bool distorted) {
   }
   cv::undistortPoints(pixels, rays, cameraMatrix(), distorted ? cv::Mat(kDistortion) : cv::Mat());
   for (size_t i = 0; i < pixels.size(); ++i) {
-    frame.depth.at<uint16_t>(pixels[i]) = static_cast<uint16_t>(std::lround(depthAt(rays[i]) / frame.depth_unit_m));
+    frame.depth.at<uint16_t>(pixels[i]) =
+        static_cast<uint16_t>(std::lround(depthAt(rays[i]) / frame.depth_unit_m));
     frame.color.at<cv::Vec3b>(pixels[i]) = cv::Vec3b::all(brightnessAt(rays[i]));
   }
   return frame;
@@ -52,8 +56,14 @@ std::string writeRecording(const TemporaryFolder& folder, const RgbdFrame& frame
 
 std::string calibrationText(const std::string& model) {
   return "image_width: 320\nimage_height: 240\ncamera_name: test\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
-         "  data: [258.65, 0.0, 159.05, 0.0, 258.25, 127.4, 0.0, 0.0, 1.0]\ndistortion_model: " + model +
-         "\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0.2624, -0.9531, -0.0054, 0.0026, 1.1633]\n";
+         "  data: [258.65, 0.0, 159.05, 0.0, 258.25, 127.4, 0.0, 0.0, 1.0]\ndistortion_model: " +
+         model +
+         "\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0.2624, -0.9531, -0.0054, 0.0026, "
+         "1.1633]\n";
+}
+
+std::unique_ptr<Recording> openRegistered(const std::string& path, const RecordingOptions& options) {
+  return registered(openFolder(path, options), compute(), {});
 }
 
 struct Difference {
@@ -74,12 +84,11 @@ TEST(RectifiedRecording, ShowsWhatAPinholeCameraSees) {
   RecordingOptions options;
   const Difference raw = meanDifference(*openFolder(path, options)->next(), frameOf(false));
   readCamera(folder / "camera.yaml", options);
-  const auto recording = openFolder(path, options);
+  const auto recording = openRegistered(path, options);
   const Difference rectified = meanDifference(*recording->next(), frameOf(false));
   EXPECT_LT(rectified.depth_m, 0.25 * raw.depth_m) << "the nearest pixel's";
   EXPECT_LT(rectified.brightness, 0.15 * raw.brightness);
   EXPECT_LT(rectified.depth_m, 0.001);
-  EXPECT_NE(recording->description().find("rectified"), std::string::npos);
   EXPECT_FALSE(recording->next().has_value());
 }
 
@@ -87,7 +96,7 @@ TEST(RectifiedRecording, ARecordingsOwnCalibrationCounts) {
   const TemporaryFolder folder;
   const std::string path = writeRecording(folder, frameOf(true));
   writeText(path + "/camera.yaml", calibrationText("plumb_bob"));
-  EXPECT_LT(meanDifference(*openFolder(path, {})->next(), frameOf(false)).depth_m, 0.001);
+  EXPECT_LT(meanDifference(*openRegistered(path, {})->next(), frameOf(false)).depth_m, 0.001);
 }
 
 TEST(RectifiedRecording, WrongCalibrationsAreNamed) {
@@ -100,6 +109,24 @@ TEST(RectifiedRecording, WrongCalibrationsAreNamed) {
   options.intrinsics = kCamera;
   options.distortion = {0.1, 0.2, 0.3};
   expectError([&] { openFolder(path, options); }, {"4, 5 or 8 coefficients", "not 3"});
+}
+
+TEST(RectifiedRecording, AColorCameraMayStandBesideTheDepthCamera) {
+  const TemporaryFolder folder;
+  const std::string path = writeRecording(folder, frameOf(false));
+  const std::string matrix = "depth_to_color:\n  rows: 4\n  cols: 4\n  data: [1, 0, 0, ";
+  writeText(folder / "color.yaml",
+            calibrationText("plumb_bob") + matrix + "-0.025, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n");
+  RecordingOptions options;
+  readColorCamera(folder / "color.yaml", options);
+  const auto frame = openFolder(path, options)->next();
+  EXPECT_TRUE(frame->distortion.empty());
+  EXPECT_EQ(frame->color_distortion, kDistortion);
+  EXPECT_TRUE(frame->T_C_D->isApprox(Pose(Eigen::Translation3d(-0.025, 0.0, 0.0))));
+  writeText(folder / "color.yaml",
+            calibrationText("plumb_bob") + matrix + "-0.025, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n");
+  expectError([&] { readColorCamera(folder / "color.yaml", options); },
+              {"color.yaml", "depth_to_color", "no rigid motion"});
 }
 
 }  // namespace
