@@ -10,8 +10,7 @@ namespace {
 
 constexpr char kDescription[] =
     "Fuses an RGB-D recording into a surface: mesh.ply, trajectory.txt (TUM format) and report.json.\n"
-    "The recording is a folder in the TUM or 7-Scenes layout or a .bag file; which one is found out by "
-    "looking.\n"
+    "The recording is a folder in the TUM or 7-Scenes layout or a .bag file; which one is found out by looking.\n"
     "The world frame is the first camera's (x right, y down, z forward), or that of --trajectory.\n\n"
     "Examples:\n"
     "  reconstruct --input desk --output out\n"
@@ -21,8 +20,8 @@ constexpr char kDescription[] =
 void listDevices() {
   const std::vector<DeviceInfo> devices = ComputeContext::listDevices();
   for (size_t i = 0; i < devices.size(); ++i) {
-    std::cout << "[" << i << "] " << devices[i].name << " (" << devices[i].platform << ", "
-              << devices[i].version << ", " << (devices[i].memory_bytes >> 20) << " MiB)\n";
+    std::cout << "[" << i << "] " << devices[i].name << " (" << devices[i].platform << ", " << devices[i].version
+              << ", " << (devices[i].memory_bytes >> 20) << " MiB)\n";
   }
   if (devices.empty()) std::cout << "no OpenCL device; the package pocl-opencl-icd brings one for the CPU\n";
 }
@@ -41,33 +40,26 @@ void addOptions(CLI::App& app, RunOptions& options, std::vector<double>& intrins
   app.add_option("--input", options.input, "recording to fuse: a folder or a .bag file");
   app.add_option("--output", options.output, "folder for the results; made if missing");
   app.add_option("--voxel-size", map.voxel_size_m, "edge of a voxel in metres")->capture_default_str();
-  app.add_option("--blocks-per-axis", map.blocks_per_axis, "the window's size in blocks, N")
-      ->capture_default_str();
-  app.add_option("--block-size", map.block_size, "voxels per block axis, M: 4, 8, 16 or 32")
-      ->capture_default_str();
-  app.add_option("--truncation", map.truncation_m,
-                 "distance kept on both sides of a surface, metres; 0 = four voxels")
+  app.add_option("--blocks-per-axis", map.blocks_per_axis, "the window's size in blocks, N")->capture_default_str();
+  app.add_option("--block-size", map.block_size, "voxels per block axis, M: 4, 8, 16 or 32")->capture_default_str();
+  app.add_option("--truncation", map.truncation_m, "distance kept on both sides of a surface, metres; 0 = four voxels")
       ->capture_default_str();
   app.add_option("--max-range", options.parameters.preprocessing.max_range_m, "farthest depth used, metres")
       ->capture_default_str();
   app.add_option("--intrinsics", intrinsics, "fx,fy,cx,cy of the depth camera, instead of the recording's")
       ->delimiter(',')
       ->expected(4);
-  app.add_option(
-      "--camera", options.camera_file,
-      "camera file in place of the recording's: camera.yaml, or a calibration of ROS's camera_calibration, "
-      "whose lens distortion is taken out");
-  app.add_option(
-      "--color-camera", options.color_camera_file,
-      "camera file of a colour camera beside the depth camera, with depth_to_color; see cfg/cameras");
+  app.add_option("--camera", options.camera_file,
+                 "camera file in place of the recording's: camera.yaml, or a calibration of ROS's camera_calibration, "
+                 "whose lens distortion is taken out");
+  app.add_option("--color-camera", options.color_camera_file,
+                 "camera file of a colour camera beside the depth camera, with depth_to_color; see cfg/cameras");
   app.add_option("--params", options.parameter_files,
                  "YAML files of `stage: {name: value}`, the later over the earlier; see --print-params");
-  app.add_option("--trajectory", options.trajectory_file,
-                 "fuse at these poses (TUM format, or a folder that holds poses) instead of tracking");
+  app.add_option("--trajectory", options.trajectory_file, "fuse at these poses (TUM format, or a folder that holds poses) instead of tracking");
   app.add_option("--max-frames", options.max_frames, "stop after so many frames")
       ->check(CLI::Range(1, 1000000000));
-  app.add_option("--device", options.device,
-                 "OpenCL device: index, part of its name, cpu or gpu; `list` shows them");
+  app.add_option("--device", options.device, "OpenCL device: index, part of its name, cpu or gpu; `list` shows them");
   app.add_option("--depth-topic", options.recording.depth_topic, "of a bag, instead of the one found");
   app.add_option("--color-topic", options.recording.color_topic, "of a bag, instead of the one found");
   app.add_flag("--color", map.color, "fuse colour, too: mesh.ply has the vertices' colours");
@@ -92,8 +84,7 @@ int run(int argc, char** argv) {
   // The parameter files come first, then the options, whatever their order on the command line.
   CLI11_PARSE(app, argc, argv);
   if (!options.parameter_files.empty()) {
-    for (const std::string& file : options.parameter_files)
-      loadParameterFile(options.parameters.table(), file);
+    for (const std::string& file : options.parameter_files) loadParameterFile(options.parameters.table(), file);
     CLI11_PARSE(app, argc, argv);
   }
   if (!options.camera_file.empty()) readCamera(options.camera_file, options.recording);

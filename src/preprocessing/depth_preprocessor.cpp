@@ -93,8 +93,7 @@ DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const Preprocessin
 
 DepthPreprocessor::~DepthPreprocessor() = default;
 
-void DepthPreprocessor::setParameters(const PreprocessingParameters& parameters,
-                                      const DepthSensorParameters& sensor) {
+void DepthPreprocessor::setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor) {
   parameters_ = limited(parameters, sensor);
   sensor_ = sensor;
 }
@@ -117,8 +116,7 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
   BilateralArgs bilateral{{}, parameters_.bilateral_cutoff_sigmas};
   for (int i = 0; i < 3; ++i) bilateral.spatial_weights[i] = std::exp(-i * i / (2.0f * sigma_px * sigma_px));
 
-  const bool compensates =
-      !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);
+  const bool compensates = !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);
   kernels_->depthToMetres(
       is_u16, input_, compensates ? skewed_depth_ : result.raw_depth, camera,
       {static_cast<float>(frame.depth_unit_m), parameters_.min_range_m, parameters_.max_range_m});
@@ -126,8 +124,8 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
     kernels_->compensateMotion(skewed_depth_, result.raw_depth, camera, sensorMotion(velocity, parameters_));
   }
   kernels_->maxTiles(result.raw_depth, result.max_tiles, camera);
-  kernels_->filterBilateral(result.raw_depth, result.levels[0].depth, camera, toArgs(result.levels[0].sensor),
-                            bilateral);
+  kernels_->filterBilateral(result.raw_depth, result.levels[0].depth, camera,
+                            toArgs(result.levels[0].sensor), bilateral);
   for (int i = 0; i < kLevels; ++i) {
     DepthLevel& level = result.levels[i];
     if (i > 0) kernels_->halveDepth(result.levels[i - 1], level, parameters_.bilateral_cutoff_sigmas);

@@ -22,9 +22,8 @@ struct RunOptions {
   PipelineParameters parameters;
 };
 
-// Fuses the recording and writes mesh, trajectory and report. Returns the exit status: 1 if a frame could not
-// be read, the pool was full, or a file could not be written, each said on standard error. Throws Error if
-// nothing can start.
+// Fuses the recording and writes mesh, trajectory and report. Returns the exit status: 1 if a frame could not be read,
+// the pool was full, or a file could not be written, each said on standard error. Throws Error if nothing can start.
 int reconstruct(const RunOptions& options);
 
 }  // namespace depth_fusion

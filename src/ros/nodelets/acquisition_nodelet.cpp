@@ -1,12 +1,12 @@
 // Acquisition: plays a recording as a sensor driver would publish it.
 #include <depth_fusion/MapStatus.h>
 #include <depth_fusion/TrackerStatus.h>
+#include <pluginlib/class_list_macros.hpp>
 #include <rosgraph_msgs/Clock.h>
 
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
-#include <pluginlib/class_list_macros.hpp>
 #include <sstream>
 #include <thread>
 
@@ -58,8 +58,7 @@ class AcquisitionNodelet : public StageNodelet {
 
   std::shared_ptr<ComputeContext> compute_;
   std::unique_ptr<Recording> recording_;
-  ros::Publisher depth_publisher_, depth_info_publisher_, color_publisher_, color_info_publisher_,
-      clock_publisher_;
+  ros::Publisher depth_publisher_, depth_info_publisher_, color_publisher_, color_info_publisher_, clock_publisher_;
   ros::Subscriber map_subscriber_, tracker_subscriber_;
 
   std::mutex mutex_;
@@ -67,7 +66,7 @@ class AcquisitionNodelet : public StageNodelet {
   bool stopping_ = false;
   std::atomic<size_t> fused_{0}, lost_{0};
   std::vector<double> latencies_ms_;  // of the poses
-  std::optional<ros::Time> done_;     // the frame of which was heard last that it is in the map, or lost
+  std::optional<ros::Time> done_;  // the frame of which was heard last that it is in the map, or lost
   std::string state_ = "waiting for subscribers";
   double first_stamp_s_ = -1.0;
   ros::WallTime first_sent_;
@@ -87,8 +86,7 @@ AcquisitionNodelet::~AcquisitionNodelet() {
 void AcquisitionNodelet::start() {
   loadParameters(atStartOnly(
       {{"recording", &recording_path_, 0, 0, "a folder in the TUM or 7-Scenes layout, or a .bag file"},
-       {"camera_file", &camera_file_, 0, 0,
-        "camera file in place of the recording's; lens distortion is taken out"},
+       {"camera_file", &camera_file_, 0, 0, "camera file in place of the recording's; lens distortion is taken out"},
        {"depth_topic", &options_.depth_topic, 0, 0, "of a bag, instead of the one found"},
        {"color_topic", &options_.color_topic, 0, 0, "of a bag, instead of the one found"},
        {"frame_id", &frame_id_, 0, 0, "optical frame of the images"},
@@ -111,17 +109,16 @@ void AcquisitionNodelet::start() {
   color_publisher_ = handle.advertise<sensor_msgs::Image>("rgb/image", 10);
   color_info_publisher_ = handle.advertise<sensor_msgs::CameraInfo>("rgb/camera_info", 10);
   if (publish_clock_) clock_publisher_ = handle.advertise<rosgraph_msgs::Clock>("/clock", 10);
-  map_subscriber_ =
-      handle.subscribe<MapStatus>("tsdf_fusion/status", 100, [this](const MapStatus::ConstPtr& status) {
+  map_subscriber_ = handle.subscribe<MapStatus>(
+      "tsdf_fusion/status", 100, [this](const MapStatus::ConstPtr& status) {
         if (status->fused && counter_.account().processed > 0) ++fused_;
         noteDone(status->header.stamp);
       });
-  tracker_subscriber_ = handle.subscribe<TrackerStatus>("icp_tracking/status", 100,
-                                                        [this](const TrackerStatus::ConstPtr& status) {
-                                                          noteTracking(*status);
-                                                          if (status->state >= TrackerStatus::LOST)
-                                                            noteDone(status->header.stamp);
-                                                        });
+  tracker_subscriber_ = handle.subscribe<TrackerStatus>(
+      "icp_tracking/status", 100, [this](const TrackerStatus::ConstPtr& status) {
+        noteTracking(*status);
+        if (status->state >= TrackerStatus::LOST) noteDone(status->header.stamp);
+      });
   startReporting();
   thread_ = std::thread([this] { play(); });
 }
@@ -203,22 +200,18 @@ void AcquisitionNodelet::awaitTime(double stamp_s) {
 }
 
 ros::Time AcquisitionNodelet::publish(const RgbdFrame& frame) {
-  const std_msgs::Header header =
-      makeHeader(restamp_ ? ros::Time::now() : toRosTime(frame.stamp_s), frame_id_);
+  const std_msgs::Header header = makeHeader(restamp_ ? ros::Time::now() : toRosTime(frame.stamp_s), frame_id_);
   if (publish_clock_) {
     rosgraph_msgs::Clock clock;
     clock.clock = header.stamp;
     clock_publisher_.publish(clock);
   }
   if (!frame.color.empty()) {
-    color_info_publisher_.publish(
-        boost::make_shared<sensor_msgs::CameraInfo>(makeCameraInfo(header, colorCamera(frame))));
+    color_info_publisher_.publish(boost::make_shared<sensor_msgs::CameraInfo>(makeCameraInfo(header, colorCamera(frame))));
     color_publisher_.publish(boost::make_shared<sensor_msgs::Image>(makeColorImage(header, frame.color)));
   }
-  depth_info_publisher_.publish(
-      boost::make_shared<sensor_msgs::CameraInfo>(makeCameraInfo(header, frame.intrinsics)));
-  depth_publisher_.publish(
-      boost::make_shared<sensor_msgs::Image>(makeDepthImage(header, frame.depth, frame.depth_unit_m)));
+  depth_info_publisher_.publish(boost::make_shared<sensor_msgs::CameraInfo>(makeCameraInfo(header, frame.intrinsics)));
+  depth_publisher_.publish(boost::make_shared<sensor_msgs::Image>(makeDepthImage(header, frame.depth, frame.depth_unit_m)));
   return header.stamp;
 }
 
@@ -232,8 +225,7 @@ void AcquisitionNodelet::awaitMap(const ros::Time& stamp) {
 
 bool AcquisitionNodelet::sleep(double seconds) {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait_for(lock, std::chrono::duration<double>(std::max(seconds, 0.0)),
-                    [this] { return stopping_; });
+  changed_.wait_for(lock, std::chrono::duration<double>(std::max(seconds, 0.0)), [this] { return stopping_; });
   return !stopping_;
 }
 
@@ -260,8 +252,7 @@ std::string AcquisitionNodelet::summary() {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::ostringstream text;
   const size_t sent = counter_.account().processed;
-  text << sent << " frames sent, " << fused_ << " fused, " << lost_ << " lost, "
-       << sent - std::min(sent, fused_ + lost_) << " dropped";
+  text << sent << " frames sent, " << fused_ << " fused, " << lost_ << " lost, " << sent - std::min(sent, fused_ + lost_) << " dropped";
   if (restamp_) {
     text << "; pose " << std::lround(percentile(latencies_ms_, 0.5)) << " ms after the image (median), "
          << std::lround(percentile(latencies_ms_, 0.95)) << " ms (95 %)";

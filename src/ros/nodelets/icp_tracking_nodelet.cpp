@@ -1,9 +1,9 @@
 // ICP tracking: the pose of every frame against the model view, over tf2 and as messages.
 #include <depth_fusion/TrackerStatus.h>
+#include <pluginlib/class_list_macros.hpp>
 
 #include <condition_variable>
 #include <deque>
-#include <pluginlib/class_list_macros.hpp>
 
 #include "depth_fusion/pipeline/frame_tracker.h"
 #include "ros/nodelets/pose_publisher.h"
@@ -131,64 +131,38 @@ void IcpTrackingNodelet::start() {
         const std::lock_guard<std::mutex> lock(mutex_);
         skipped_.push_back({frame->sensor->clock_jumps, frame->sensor->rgbd.stamp_s, frame->motion});
       });
-  view_subscriber_ =
-      handle.subscribe<MapViewMessage>("tsdf_fusion/model_view", 100, &IcpTrackingNodelet::receiveView, this);
+  view_subscriber_ = handle.subscribe<MapViewMessage>("tsdf_fusion/model_view", 100,
+                                                      &IcpTrackingNodelet::receiveView, this);
   if (use_texture_) {
     frame_subscriber_ = handle.subscribe<TexturedFrameMessage>(
         "texture_odometry/frame", 100, [this](const TexturedFrameMessage::ConstPtr& message) {
           counter_.receive();
           if (message->payload != nullptr) return receive(message->payload);
           counter_.drop("from another process");
-          NODELET_ERROR_THROTTLE(
-              5.0, "texture_odometry runs in another process; load it in the same nodelet manager");
+          NODELET_ERROR_THROTTLE(5.0, "texture_odometry runs in another process; load it in the same nodelet manager");
         });
   } else {
-    sensor_subscriber_ = std::make_unique<RgbdSubscriber>(
-        handle, rgbd_, device_, counter_, [this](const SensorFramePtr& sensor) {
-          auto frame = std::make_shared<TexturedFrame>();
-          frame->sensor = sensor;
-          frame->motion.reason = frame->features.reason = "no texture odometry";
-          receive(frame);
-        });
+    sensor_subscriber_ = std::make_unique<RgbdSubscriber>(handle, rgbd_, device_, counter_, [this](const SensorFramePtr& sensor) {
+      auto frame = std::make_shared<TexturedFrame>();
+      frame->sensor = sensor;
+      frame->motion.reason = frame->features.reason = "no texture odometry";
+      receive(frame);
+    });
   }
   startReporting();
 }
 
 void IcpTrackingNodelet::loadAll() {
   ParameterTable table = parameters_.icp_tracking.table();
-  for (const ParameterTable& rows : {rgbd_.table(), pose_.table()})
-    table.insert(table.end(), rows.begin(), rows.end());
-  table.push_back({"device",
-                   &device_,
-                   0,
-                   0,
-                   "OpenCL device: index, part of its name, cpu or gpu; empty: the best",
-                   {},
-                   true});
-  table.push_back({"map",
-                   &map_name_,
-                   0,
-                   0,
-                   "the nodelet that has the map; empty: tsdf_fusion beside this one",
-                   {},
-                   true});
-  table.push_back(
-      {"texture_odometry",
-       &use_texture_,
-       0,
-       1,
-       "true: frames come from texture_odometry; false: from the topics, with the last pose as the prior",
-       {},
-       true});
-  table.push_back(
-      {"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true});
-  table.push_back(
-      {"on_clock_jump",
-       &on_clock_jump_,
-       0,
-       0,
-       "what a clock that goes back does to the map: begin anew, or keep it and find the sensor in it",
-       {"reset", "keep"}});
+  for (const ParameterTable& rows : {rgbd_.table(), pose_.table()}) table.insert(table.end(), rows.begin(), rows.end());
+  table.push_back({"device", &device_, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best", {}, true});
+  table.push_back({"map", &map_name_, 0, 0, "the nodelet that has the map; empty: tsdf_fusion beside this one", {}, true});
+  table.push_back({"texture_odometry", &use_texture_, 0, 1,
+                   "true: frames come from texture_odometry; false: from the topics, with the last pose as the prior", {}, true});
+  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true});
+  table.push_back({"on_clock_jump", &on_clock_jump_, 0, 0,
+                   "what a clock that goes back does to the map: begin anew, or keep it and find the sensor in it",
+                   {"reset", "keep"}});
   loadParameters(table, {{"registration", rgbd_.registration.table()},
                          {"depth_sensor", parameters_.depth_sensor.table()},
                          {"preprocessing", parameters_.preprocessing.table()},
@@ -205,8 +179,7 @@ void IcpTrackingNodelet::receive(const TexturedFramePtr& frame) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     newest_stamp_ = frame->sensor->header.stamp;
-    if (frame->sensor->clock_jumps != std::exchange(newest_jumps_, frame->sensor->clock_jumps))
-      reset_stamp_ = ros::Time();
+    if (frame->sensor->clock_jumps != std::exchange(newest_jumps_, frame->sensor->clock_jumps)) reset_stamp_ = ros::Time();
   }
   worker_->push(frame);
 }
@@ -219,11 +192,9 @@ void IcpTrackingNodelet::receiveView(const MapViewMessage::ConstPtr& view) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     views_.push_back(view);
-    if (views_.size() > kMaxViews)
-      views_.pop_front();  // nobody sends frames, and fusion has them from elsewhere
+    if (views_.size() > kMaxViews) views_.pop_front();  // nobody sends frames, and fusion has them from elsewhere
     if (view->payload->reason == kBeforeReset && !view->payload->accepted && view->payload->view == nullptr) {
-      // Frames that are still on their way count by their stamps, where those are of the clock that fusion
-      // goes by.
+      // Frames that are still on their way count by their stamps, where those are of the clock that fusion goes by.
       const bool same_clock = std::abs((view->header.stamp - newest_stamp_).toSec()) < kSameClock_s;
       reset_stamp_ = same_clock ? std::max(view->header.stamp, newest_stamp_) : newest_stamp_;
     }
@@ -266,8 +237,7 @@ std::string IcpTrackingNodelet::refusal(const ros::Time& stamp) {
 
 void IcpTrackingNodelet::prepare(const CameraIntrinsics& camera) {
   if (tracker_ != nullptr && sameCamera(camera, camera_)) return;
-  if (tracker_ != nullptr)
-    NODELET_WARN("the camera's intrinsics have changed; the sensor is searched for in the map");
+  if (tracker_ != nullptr) NODELET_WARN("the camera's intrinsics have changed; the sensor is searched for in the map");
   const std::shared_ptr<ComputeContext> compute = sharedCompute(device_);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -275,9 +245,8 @@ void IcpTrackingNodelet::prepare(const CameraIntrinsics& camera) {
   }
   NODELET_INFO_STREAM("OpenCL device: " << compute_->selfTestReport());
   renderer_.reset();
-  tracker_ =
-      std::make_unique<FrameTracker>(*compute_, parameters_, camera,
-                                     [this](const Pose& T_W_D) -> const ModelView& { return render(T_W_D); });
+  tracker_ = std::make_unique<FrameTracker>(*compute_, parameters_, camera,
+                                            [this](const Pose& T_W_D) -> const ModelView& { return render(T_W_D); });
   camera_ = camera;
   if (view_ != nullptr) tracker_->expectAt(view_->T_W_D);
 }
@@ -313,8 +282,7 @@ void IcpTrackingNodelet::awaitAnswer() {
     changed_.wait_for(lock, kPeriod, [this] { return stopping_ || !views_.empty(); });
   } while (!stopping_ && std::chrono::steady_clock::now() < give_up);
   if (!sent_) return;
-  if (!stopping_)
-    NODELET_ERROR_STREAM(getName() << ": no answer from tsdf_fusion to the last frame, which counts as lost");
+  if (!stopping_) NODELET_ERROR_STREAM(getName() << ": no answer from tsdf_fusion to the last frame, which counts as lost");
   sent_.reset();
   tracker_->reject();
 }
@@ -366,22 +334,17 @@ TrackingResult IcpTrackingNodelet::track(const TexturedFramePtr& frame, StageTim
 }
 
 void IcpTrackingNodelet::send(const TexturedFramePtr& frame, const TrackingResult& result) {
-  sent_ = Sent{
-      frame, {frame->sensor, tracker_->depth(), result, map_generation_, std::exchange(begins_map_, false)}};
-  frame_publisher_.publish(
-      makeMessage<TrackedFrame>(frame->sensor->header, std::make_shared<TrackedFrame>(sent_->tracked)));
+  sent_ = Sent{frame, {frame->sensor, tracker_->depth(), result, map_generation_, std::exchange(begins_map_, false)}};
+  frame_publisher_.publish(makeMessage<TrackedFrame>(frame->sensor->header, std::make_shared<TrackedFrame>(sent_->tracked)));
 }
 
-void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResult& result,
-                                 StageTimers& timers) {
+void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResult& result, StageTimers& timers) {
   const std_msgs::Header& header = frame.sensor->header;
   const bool lost = result.status == TrackingStatus::kLost;
   const double latency_s = (ros::Time::now() - header.stamp).toSec();
   if (lost) {
     pose_publisher_->publishLost(header);
-    counter_.drop(mode_ == MapMode::kPaused       ? "paused"
-                  : result.reason == kBeforeReset ? kBeforeReset
-                                                  : "lost");
+    counter_.drop(mode_ == MapMode::kPaused ? "paused" : result.reason == kBeforeReset ? kBeforeReset : "lost");
   } else {
     counter_.process();
     try {
@@ -411,8 +374,7 @@ void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResul
 
 const ModelView& IcpTrackingNodelet::render(const Pose& T_W_D) {
   const std::shared_ptr<SharedMap> map = findMap(map_name_);
-  check(map != nullptr, "no map of " + map_name_ +
-                            " in this process; load tsdf_fusion in the same nodelet manager, or set ~map");
+  check(map != nullptr, "no map of " + map_name_ + " in this process; load tsdf_fusion in the same nodelet manager, or set ~map");
   if (map != map_ || renderer_ == nullptr) {
     renderer_.reset();
     map_ = map;

@@ -21,16 +21,9 @@ constexpr double kReleasePeriod_s = 0.02;
 }  // namespace
 
 ParameterTable RgbdParameters::table() {
-  return {{"depth_transport",
-           &depth_transport,
-           0,
-           0,
-           "of depth/image",
-           {"raw", "compressedDepth", "compressed"},
-           true},
+  return {{"depth_transport", &depth_transport, 0, 0, "of depth/image", {"raw", "compressedDepth", "compressed"}, true},
           {"color_transport", &color_transport, 0, 0, "of rgb/image", {"raw", "compressed"}, true},
-          {"max_pairing_gap_s", &max_pairing_gap_s, 0.0, 1.0,
-           "colour farther from its depth than this is left out"},
+          {"max_pairing_gap_s", &max_pairing_gap_s, 0.0, 1.0, "colour farther from its depth than this is left out"},
           {"max_color_wait_s", &max_color_wait_s, 0.0, 10.0, "how long a depth image waits for its colour"}};
 }
 
@@ -82,8 +75,8 @@ void RgbdSubscriber::subscribe(ros::NodeHandle& handle) {
     frame.rgbd.depth_unit_m = depth.unit_m;
   };
   if (parameters_.depth_transport == "raw") {
-    depth_subscriber_ = handle.subscribe<sensor_msgs::Image>(
-        depth_topic_, kTopicQueue, [this, take](const ImageConstPtr& image) {
+    depth_subscriber_ =
+        handle.subscribe<sensor_msgs::Image>(depth_topic_, kTopicQueue, [this, take](const ImageConstPtr& image) {
           onDepth(image->header, [&](SensorFrame& frame) {
             take(frame, depthFromImage(*image, depth_topic_));
             frame.depth_message = image;
@@ -92,20 +85,16 @@ void RgbdSubscriber::subscribe(ros::NodeHandle& handle) {
   } else {
     depth_subscriber_ = handle.subscribe<sensor_msgs::CompressedImage>(
         depth_topic_, kTopicQueue, [this, take](const CompressedImageConstPtr& image) {
-          onDepth(image->header,
-                  [&](SensorFrame& frame) { take(frame, depthFromCompressed(*image, depth_topic_)); });
+          onDepth(image->header, [&](SensorFrame& frame) { take(frame, depthFromCompressed(*image, depth_topic_)); });
         });
   }
   if (parameters_.color_transport == "raw") {
-    color_subscriber_ =
-        handle.subscribe<sensor_msgs::Image>(color_topic_, kTopicQueue, [this](const ImageConstPtr& image) {
-          onColor({image->header, image, nullptr});
-        });
+    color_subscriber_ = handle.subscribe<sensor_msgs::Image>(
+        color_topic_, kTopicQueue, [this](const ImageConstPtr& image) { onColor({image->header, image, nullptr}); });
   } else {
     color_subscriber_ = handle.subscribe<sensor_msgs::CompressedImage>(
-        color_topic_, kTopicQueue, [this](const CompressedImageConstPtr& image) {
-          onColor({image->header, nullptr, image});
-        });
+        color_topic_, kTopicQueue,
+        [this](const CompressedImageConstPtr& image) { onColor({image->header, nullptr, image}); });
   }
 }
 
@@ -120,8 +109,7 @@ std::string RgbdSubscriber::problem() const {
   return problem_;
 }
 
-void RgbdSubscriber::onDepth(const std_msgs::Header& header,
-                             const std::function<void(SensorFrame&)>& decode) {
+void RgbdSubscriber::onDepth(const std_msgs::Header& header, const std::function<void(SensorFrame&)>& decode) {
   const std::lock_guard<std::mutex> lock(mutex_);
   counter_.receive();
   auto frame = std::make_shared<SensorFrame>();
@@ -163,8 +151,7 @@ bool RgbdSubscriber::takeStamp(SensorFrame& frame) {
 }
 
 void RgbdSubscriber::takeCamera(SensorFrame& frame) const {
-  check(depth_info_ != nullptr,
-        "no camera_info yet on " + info_topic_ + "; remap depth/camera_info to the driver's");
+  check(depth_info_ != nullptr, "no camera_info yet on " + info_topic_ + "; remap depth/camera_info to the driver's");
   const CameraIntrinsics camera = cameraFromInfo(*depth_info_, depth_topic_);
   check(camera.valid(), info_topic_ + ": no focal length or size; calibrate the camera (camera_calibration)");
   check(camera.width == frame.rgbd.depth.cols && camera.height == frame.rgbd.depth.rows,

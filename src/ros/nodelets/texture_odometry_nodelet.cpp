@@ -1,6 +1,5 @@
 // Texture odometry: the motion between frames from their texture, for tracking and as nav_msgs/Odometry.
 #include <nav_msgs/Odometry.h>
-
 #include <pluginlib/class_list_macros.hpp>
 
 #include "ros/messages.h"
@@ -45,23 +44,9 @@ class TextureOdometryNodelet : public StageNodelet {
 void TextureOdometryNodelet::start() {
   ParameterTable table = parameters_.table();
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
-  table.push_back(
-      {"device",
-       &device_,
-       0,
-       0,
-       "OpenCL device that registers frames: index, part of its name, cpu or gpu; empty: the best",
-       {},
-       true});
-  table.push_back({"odom_frame",
-                   &odom_frame_,
-                   0,
-                   0,
-                   "frame of the odometry: where the sensor was in the first frame",
-                   {},
-                   true});
-  table.push_back(
-      {"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true});
+  table.push_back({"device", &device_, 0, 0, "OpenCL device that registers frames: index, part of its name, cpu or gpu; empty: the best", {}, true});
+  table.push_back({"odom_frame", &odom_frame_, 0, 0, "frame of the odometry: where the sensor was in the first frame", {}, true});
+  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true});
   loadParameters(table, {{"registration", rgbd_.registration.table()}});
   odometry_ = std::make_unique<TextureOdometry>(parameters_);
 
@@ -71,9 +56,8 @@ void TextureOdometryNodelet::start() {
   worker_ = std::make_unique<Worker<SensorFramePtr>>(
       queue_size_, [this](const SensorFramePtr& frame) { process(frame); },
       [this](const SensorFramePtr&) { counter_.drop("too slow"); });
-  subscriber_ =
-      std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, device_, counter_,
-                                       [this](const SensorFramePtr& frame) { worker_->push(frame); });
+  subscriber_ = std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, device_, counter_,
+                                                 [this](const SensorFramePtr& frame) { worker_->push(frame); });
   startReporting();
 }
 

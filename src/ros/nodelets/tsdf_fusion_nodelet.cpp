@@ -1,12 +1,10 @@
-// TSDF fusion: frames with poses into the map, model views out of it; services to reset it and to stop and go
-// on.
+// TSDF fusion: frames with poses into the map, model views out of it; services to reset it and to stop and go on.
 #include <depth_fusion/MapStatus.h>
 #include <depth_fusion/SetMode.h>
+#include <pluginlib/class_list_macros.hpp>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/message_filter.h>
 #include <tf2_ros/transform_listener.h>
-
-#include <pluginlib/class_list_macros.hpp>
 
 #include "depth_fusion/pipeline/frame_tracker.h"
 #include "depth_fusion/pipeline/mapper.h"
@@ -58,15 +56,14 @@ class TsdfFusionNodelet : public StageNodelet {
 
   PipelineParameters parameters_;
   RgbdParameters rgbd_;
-  std::string device_, map_frame_ = "map", tracking_ = "internal", on_clock_jump_ = "reset",
-                       picture_ = "shaded";
+  std::string device_, map_frame_ = "map", tracking_ = "internal", on_clock_jump_ = "reset", picture_ = "shaded";
   int queue_size_ = 2, tf_queue_size_ = 30;
   float picture_rate_hz_ = 10.0f;
 
   std::shared_ptr<SharedMap> map_;
   std::atomic<MapMode> mode_{MapMode::kMapping};
   CameraIntrinsics camera_;
-  std::unique_ptr<Mapper> mapper_;              // changed with the map's mutex held
+  std::unique_ptr<Mapper> mapper_;             // changed with the map's mutex held
   std::unique_ptr<FrameTracker> preprocessor_;  // of frames with poses from elsewhere
   std::shared_ptr<const ModelView> view_;       // of the last accepted frame
   uint32_t clock_jumps_ = 0;
@@ -126,44 +123,16 @@ void TsdfFusionNodelet::start() {
 void TsdfFusionNodelet::loadAll() {
   ParameterTable table = parameters_.tsdf_fusion.table();
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
-  table.push_back({"device",
-                   &device_,
-                   0,
-                   0,
-                   "OpenCL device: index, part of its name, cpu or gpu; empty: the best",
-                   {},
-                   true});
+  table.push_back({"device", &device_, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best", {}, true});
   table.push_back({"map_frame", &map_frame_, 0, 0, "frame of the map", {}, true});
-  table.push_back({"tracking",
-                   &tracking_,
-                   0,
-                   0,
-                   "internal: frames with poses from icp_tracking; external: frames from the topics, poses "
-                   "from tf at their stamps",
-                   {"internal", "external"},
-                   true});
-  table.push_back({"queue_size",
-                   &queue_size_,
-                   1,
-                   1000,
-                   "frames with poses that wait at most; the oldest are dropped",
-                   {},
-                   true});
-  table.push_back({"tf_queue_size",
-                   &tf_queue_size_,
-                   1,
-                   10000,
-                   "external: frames that wait for their pose at most",
-                   {},
-                   true});
-  table.push_back({"on_clock_jump",
-                   &on_clock_jump_,
-                   0,
-                   0,
-                   "external: what a clock that goes back does to the map",
-                   {"reset", "keep"}});
-  table.push_back(
-      {"picture", &picture_, 0, 0, "of the model view, on model_view/image", {"shaded", "colored"}});
+  table.push_back({"tracking", &tracking_, 0, 0,
+                   "internal: frames with poses from icp_tracking; external: frames from the topics, poses from tf at their stamps",
+                   {"internal", "external"}, true});
+  table.push_back({"queue_size", &queue_size_, 1, 1000, "frames with poses that wait at most; the oldest are dropped", {}, true});
+  table.push_back({"tf_queue_size", &tf_queue_size_, 1, 10000, "external: frames that wait for their pose at most", {}, true});
+  table.push_back({"on_clock_jump", &on_clock_jump_, 0, 0,
+                   "external: what a clock that goes back does to the map", {"reset", "keep"}});
+  table.push_back({"picture", &picture_, 0, 0, "of the model view, on model_view/image", {"shaded", "colored"}});
   table.push_back({"picture_rate_hz", &picture_rate_hz_, 0.1, 100.0, "at most"});
   loadParameters(table, {{"map", parameters_.map.table()},
                          {"registration", rgbd_.registration.table()},
@@ -187,10 +156,8 @@ void TsdfFusionNodelet::subscribeTracker() {
         counter_.receive();
         if (message->payload != nullptr) return worker_->push(message->payload);
         counter_.drop("from another process");
-        NODELET_ERROR_THROTTLE(
-            5.0,
-            "icp_tracking runs in another process; load it in the same nodelet manager, or set "
-            "tracking: external");
+        NODELET_ERROR_THROTTLE(5.0, "icp_tracking runs in another process; load it in the same nodelet manager, or set "
+                                    "tracking: external");
       });
 }
 
@@ -200,17 +167,17 @@ void TsdfFusionNodelet::subscribeSensor() {
   tf_filter_ = std::make_unique<tf2_ros::MessageFilter<SensorFrameMessage>>(*tf_, map_frame_, tf_queue_size_,
                                                                             getMTNodeHandle());
   tf_filter_->registerCallback(&TsdfFusionNodelet::receiveWithPose, this);
-  tf_filter_->registerFailureCallback([this](const SensorFrameMessage::ConstPtr& message,
-                                             tf2_ros::filter_failure_reasons::FilterFailureReason) {
-    std::string why;
-    tf_->canTransform(map_frame_, message->header.frame_id, message->header.stamp, &why);
-    counter_.drop("no pose on tf");
-    NODELET_WARN_STREAM_THROTTLE(5.0, "a frame has no pose on tf: " << why);
-    const std::lock_guard<std::mutex> lock(status_mutex_);
-    problem_ = "no pose on tf: " + why;
-  });
-  sensor_subscriber_ = std::make_unique<RgbdSubscriber>(
-      getMTNodeHandle(), rgbd_, device_, counter_, [this](const SensorFramePtr& sensor) {
+  tf_filter_->registerFailureCallback(
+      [this](const SensorFrameMessage::ConstPtr& message, tf2_ros::filter_failure_reasons::FilterFailureReason) {
+        std::string why;
+        tf_->canTransform(map_frame_, message->header.frame_id, message->header.stamp, &why);
+        counter_.drop("no pose on tf");
+        NODELET_WARN_STREAM_THROTTLE(5.0, "a frame has no pose on tf: " << why);
+        const std::lock_guard<std::mutex> lock(status_mutex_);
+        problem_ = "no pose on tf: " + why;
+      });
+  sensor_subscriber_ =
+      std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, device_, counter_, [this](const SensorFramePtr& sensor) {
         tf_filter_->add(makeMessage<SensorFrame>(sensor->header, sensor));
       });
 }
@@ -242,8 +209,7 @@ void TsdfFusionNodelet::process(const TrackedFramePtr& frame) {
     const std::lock_guard<std::mutex> lock(map_->mutex);
     prepare(frame->sensor->rgbd.intrinsics);
     outcome = map(*frame, timers);
-    if (outcome.accepted &&
-        view_publisher_.getNumSubscribers() + picture_publisher_.getNumSubscribers() > 0) {
+    if (outcome.accepted && view_publisher_.getNumSubscribers() + picture_publisher_.getNumSubscribers() > 0) {
       mapper_->render(frame->tracking.T_W_D, timers);
       view_ = mapper_->renderer().view();
     }
@@ -273,8 +239,7 @@ void TsdfFusionNodelet::prepare(const CameraIntrinsics& camera) {
 
 TsdfFusionNodelet::Outcome TsdfFusionNodelet::map(const TrackedFrame& frame, StageTimers& timers) {
   if (frame.sensor->clock_jumps < clock_jumps_) return {false, false, "from before a clock jump"};
-  const bool clock_jumped =
-      frame.sensor->clock_jumps > std::exchange(clock_jumps_, frame.sensor->clock_jumps);
+  const bool clock_jumped = frame.sensor->clock_jumps > std::exchange(clock_jumps_, frame.sensor->clock_jumps);
   const bool begins = tracking_ == "external" ? clock_jumped && on_clock_jump_ == "reset" : frame.begins_map;
   if (begins && mode_ == MapMode::kMapping) {
     resetMap();
@@ -379,16 +344,14 @@ void TsdfFusionNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& st
   using diagnostic_msgs::DiagnosticStatus;
   const std::string sensor_problem = sensor_subscriber_ ? sensor_subscriber_->problem() : "";
   const std::lock_guard<std::mutex> lock(status_mutex_);
-  const double used =
-      static_cast<double>(status_.blocks) / std::max<double>(1.0, status_.blocks + status_.blocks_free);
+  const double used = static_cast<double>(status_.blocks) / std::max<double>(1.0, status_.blocks + status_.blocks_free);
   if (!sensor_problem.empty()) {
     status.summary(DiagnosticStatus::WARN, sensor_problem);
   } else if (!problem_.empty()) {
     status.summary(DiagnosticStatus::ERROR, problem_);
   } else if (used > 0.9) {
-    status.summary(
-        used > 0.99 ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
-        "the pool of voxels is nearly full; raise map/pool_mib or map/voxel_size_m, or reset_volume");
+    status.summary(used > 0.99 ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+                   "the pool of voxels is nearly full; raise map/pool_mib or map/voxel_size_m, or reset_volume");
   } else if (!status_.reason.empty()) {
     status.summary(DiagnosticStatus::WARN, status_.reason);
   }
