@@ -7,6 +7,7 @@
 #include "shared/image.h"
 
 #define ITERATIONS 4
+#define CONVERGED 1e-4f  // the change of the depth, as a part of it
 
 // Where a lens takes the ray (x, y, 1).
 inline void distort(const LensArgs lens, vfloat* x, vfloat* y) {
@@ -101,6 +102,7 @@ __kernel void register_depth(__global const float* depth, __global const int* sp
           select((vfloat)(0.0f), (seen - T_D_C.translation[2]) / ray_D_z, (z_D > 0.0f) & (seen > 0.0f));
       step = select(next - z, (vfloat)(MAXFLOAT), next <= 0.0f);
       z = select(z, next, next > 0.0f);
+      if (!ANY(some & (fabs(step) > CONVERGED * z) & (step < MAXFLOAT))) break;
     }
   }
   const vint agreed = some & (fabs(step) <= max_relative_step * z);

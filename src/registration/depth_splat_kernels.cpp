@@ -7,7 +7,8 @@
 namespace depth_fusion {
 
 DepthSplatKernels::DepthSplatKernels(ComputeContext& compute)
-    : splat_(compute, "registration/splat_depth.cl", "splat_depth"),
+    : simd_width_(compute.impl().simd_width),
+      splat_(compute, "registration/splat_depth.cl", "splat_depth"),
       drop_unset_(compute, "registration/splat_depth.cl", "drop_unset_depth") {}
 
 int DepthSplatKernels::footprint(const CameraIntrinsics& camera, const CameraIntrinsics& other_camera) {
@@ -18,7 +19,7 @@ void DepthSplatKernels::splat(const DeviceBuffer& depth, const CameraIntrinsics&
                               DeviceBuffer& depth_C, const CameraIntrinsics& other_camera, const Pose& T_C_D,
                               int footprint) {
   depth_C.fill(NO_DEPTH_BITS, depth_C.bytes());
-  splat_.run2d(camera.width, camera.height, depth, depth_C, toArgs(camera), toArgs(other_camera),
+  splat_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, depth_C, toArgs(camera), toArgs(other_camera),
                toArgs(T_C_D), footprint);
 }
 

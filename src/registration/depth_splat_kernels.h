@@ -20,6 +20,7 @@ class DepthSplatKernels {
   void dropUnset(DeviceBuffer& depth_C, const CameraIntrinsics& other_camera);
 
  private:
+  int simd_width_;
   Kernel splat_, drop_unset_;
 };
 

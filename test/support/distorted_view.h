@@ -13,17 +13,16 @@ inline cv::Matx33d cameraMatrix(const CameraIntrinsics& camera) {
   return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
 }
 
-// The rendered view through the lens, from one rendered at three times the resolution and half as much again
-// of the angle.
+// The rendered view through the lens, from one rendered at twice the resolution and a quarter more of the angle.
 inline RenderedView distortedView(const Scene& scene, const CameraIntrinsics& camera,
                                   const LensDistortion& lens, const Pose& T_W_C) {
   CameraIntrinsics wide = camera;
-  wide.fx *= 3.0;
-  wide.fy *= 3.0;
-  wide.width = camera.width * 9 / 2;
-  wide.height = camera.height * 9 / 2;
-  wide.cx = 3.0 * camera.cx + 0.75 * camera.width;
-  wide.cy = 3.0 * camera.cy + 0.75 * camera.height;
+  wide.fx *= 2.0;
+  wide.fy *= 2.0;
+  wide.width = camera.width * 5 / 2;
+  wide.height = camera.height * 5 / 2;
+  wide.cx = 2.0 * camera.cx + 0.25 * camera.width;
+  wide.cy = 2.0 * camera.cy + 0.25 * camera.height;
   RenderedView view = render(scene, wide, T_W_C);
   std::vector<cv::Point2d> pixels, sources;
   for (int v = 0; v < camera.height; ++v) {

@@ -68,7 +68,10 @@ struct Difference {
 // Means over the middle of the image, which both see.
 Difference meanDifference(const RgbdFrame& a, const RgbdFrame& b) {
   const cv::Rect middle(20, 20, kCamera.width - 40, kCamera.height - 40);
-  return {cv::norm(a.depth(middle), b.depth(middle), cv::NORM_L1) / middle.area() * a.depth_unit_m,
+  cv::Mat depth_a, depth_b;  // metres
+  a.depth(middle).convertTo(depth_a, CV_32F, a.depth_unit_m);
+  b.depth(middle).convertTo(depth_b, CV_32F, b.depth_unit_m);
+  return {cv::norm(depth_a, depth_b, cv::NORM_L1) / middle.area(),
           cv::norm(a.color(middle), b.color(middle), cv::NORM_L1) / middle.area() / 3.0};
 }
 
