@@ -5,7 +5,7 @@
 //   colors   of the pool (shared/color_map.h)
 //   voxels   distances and certainties of the pool
 //   visible  slots of the blocks; those no longer in use are left out
-//   image    blue, green, red and quality a pixel (color_depth.cl)
+//   image    blue, green, red and quality a pixel (rate_pixels.cl)
 //   depth_C  metres, what the colour camera sees; other surfaces are hidden. 0 = not known
 //   T_C_W    of the colour camera as depth and calibration say, for depth_C and quality
 //   T_A_W    of the colour camera where its colours fit the map's, for the colours

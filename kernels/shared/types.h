@@ -73,6 +73,14 @@ typedef struct {
   int width, height, pitch;
 } CameraArgs;
 
+// A lens as OpenCV and ROS describe it: k1 to k6 and p1, p2. Rays farther from the axis than the radius do
+// not reach the image.
+typedef struct {
+  float radial[6];
+  float tangential[2];
+  float max_squared_radius;
+} LensArgs;
+
 // p_A = rotation * p_B + translation, row by row.
 typedef struct {
   float rotation[9];

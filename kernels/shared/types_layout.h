@@ -11,6 +11,10 @@
   MEMBER(CameraArgs, width)                  \
   MEMBER(CameraArgs, height)                 \
   MEMBER(CameraArgs, pitch)                  \
+  STRUCT(LensArgs)                           \
+  MEMBER(LensArgs, radial)                   \
+  MEMBER(LensArgs, tangential)               \
+  MEMBER(LensArgs, max_squared_radius)       \
   STRUCT(TransformArgs)                      \
   MEMBER(TransformArgs, rotation)            \
   MEMBER(TransformArgs, translation)         \

@@ -52,6 +52,8 @@ void addOptions(CLI::App& app, RunOptions& options, std::vector<double>& intrins
   app.add_option("--camera", options.camera_file,
                  "camera file in place of the recording's: camera.yaml, or a calibration of ROS's camera_calibration, "
                  "whose lens distortion is taken out");
+  app.add_option("--color-camera", options.color_camera_file,
+                 "camera file of a colour camera beside the depth camera, with depth_to_color; see cfg/cameras");
   app.add_option("--params", options.parameter_files,
                  "YAML files of `stage: {name: value}`, the later over the earlier; see --print-params");
   app.add_option("--trajectory", options.trajectory_file, "fuse at these poses (TUM format, or a folder that holds poses) instead of tracking");
@@ -86,6 +88,7 @@ int run(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
   }
   if (!options.camera_file.empty()) readCamera(options.camera_file, options.recording);
+  if (!options.color_camera_file.empty()) readColorCamera(options.color_camera_file, options.recording);
   if (!intrinsics.empty()) options.recording.intrinsics = parseIntrinsics(intrinsics);
 
   if (options.device == "list") {

@@ -1,37 +1,22 @@
 #include "color_fusion/color_fusion_kernels.h"
 
-#include <cmath>
-
 #include "geometry/kernel_args.h"
 #include "map/map_args.h"
 
 namespace depth_fusion {
-namespace {
-
-// Pixels of the colour camera that a pixel of the depth camera covers, along an axis.
-int footprint(const CameraIntrinsics& camera, const CameraIntrinsics& color_camera) {
-  return static_cast<int>(std::ceil(color_camera.fx / camera.fx)) + 1;
-}
-
-}  // namespace
-
 ColorFusion::Kernels::Kernels(ComputeContext& compute, const MapParameters& map)
     : simd_width_(compute.impl().simd_width),
       items_per_block_(itemsPerBlock(map, simd_width_)),
-      splat_(compute, "color_fusion/color_depth.cl", "splat_depth"),
-      drop_unset_(compute, "color_fusion/color_depth.cl", "drop_unset_depth"),
-      rate_(compute, "color_fusion/color_depth.cl", "rate_pixels"),
+      splat_(compute),
+      rate_(compute, "color_fusion/rate_pixels.cl", "rate_pixels"),
       sample_(compute, "color_fusion/sample_surface.cl", "sample_surface", blockSizeOption(map)),
       integrate_(compute, "color_fusion/integrate_color.cl", "integrate_color", blockSizeOption(map)) {}
 
 void ColorFusion::Kernels::moveDepth(const DepthLevel& depth, DeviceBuffer& depth_C,
                                      const CameraIntrinsics& color_camera, const Pose& T_C_D) {
-  const CameraIntrinsics& camera = depth.camera;
-  depth_C.fill(NO_DEPTH_BITS, depth_C.bytes());
-  splat_.run2d(camera.width, camera.height, depth.depth, depth_C, toArgs(camera), toArgs(color_camera),
-               toArgs(T_C_D), footprint(camera, color_camera));
-  const int elements = static_cast<int>(imageElements(color_camera));
-  drop_unset_.run(elements, depth_C, elements);
+  splat_.splat(depth.depth, depth.camera, depth_C, color_camera, T_C_D,
+               splat_.footprint(depth.camera, color_camera));
+  splat_.dropUnset(depth_C, color_camera);
 }
 
 void ColorFusion::Kernels::ratePixels(DeviceBuffer& image, const DeviceBuffer& depth_C,

@@ -3,6 +3,7 @@
 
 #include "compute/kernel.h"
 #include "depth_fusion/color_fusion/color_fusion.h"
+#include "registration/depth_splat_kernels.h"
 #include "shared/types.h"
 
 namespace depth_fusion {
@@ -28,7 +29,8 @@ class ColorFusion::Kernels {
  private:
   int simd_width_;
   size_t items_per_block_;
-  Kernel splat_, drop_unset_, rate_, sample_, integrate_;
+  DepthSplatKernels splat_;
+  Kernel rate_, sample_, integrate_;
 };
 
 }  // namespace depth_fusion

@@ -8,7 +8,8 @@ namespace depth_fusion {
 ParameterTable PipelineParameters::table() {
   ParameterTable all;
   for (const auto& [stage, table] :
-       {std::make_pair("map", map.table()), std::make_pair("depth_sensor", depth_sensor.table()),
+       {std::make_pair("map", map.table()), std::make_pair("registration", registration.table()),
+        std::make_pair("depth_sensor", depth_sensor.table()),
         std::make_pair("preprocessing", preprocessing.table()),
         std::make_pair("texture_odometry", texture_odometry.table()),
         std::make_pair("icp_tracking", icp_tracking.table()),

@@ -107,6 +107,7 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
   const CameraIntrinsics& camera = result.levels[0].camera;
   const bool is_u16 = frame.depth.type() == CV_16UC1;
   check(is_u16 || frame.depth.type() == CV_32FC1, "depth images must hold 16-bit integers or 32-bit floats");
+  check(!distorts(frame.distortion), "a depth image's lens distortion is still in it; see FrameRegistration");
   check(frame.depth.cols == camera.width && frame.depth.rows == camera.height,
         "a depth image is " + sizeText(frame.depth.cols, frame.depth.rows) + ", the intrinsics are for " +
             sizeText(camera.width, camera.height));

@@ -51,6 +51,21 @@ std::vector<double> readMatrix(const YAML::Node& root, const std::string& key, c
   return numbers;
 }
 
+Pose readPose(const YAML::Node& root, const std::string& key) {
+  constexpr double kTolerance = 1e-4;
+  const std::vector<double> numbers = readMatrix(root, key, {16});
+  const Eigen::Matrix4d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  check((rotation * rotation.transpose()).isIdentity(kTolerance) && rotation.determinant() > 0.0 &&
+            matrix.row(3).isApprox(Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)),
+        "'" + key + "' is no rigid motion");
+  Pose pose = Pose::Identity();
+  pose.linear() = rotation;
+  pose.translation() = matrix.topRightCorner<3, 1>();
+  return orthonormalized(pose);
+}
+
 CameraFile parseRosCalibration(const YAML::Node& root) {
   CameraFile file;
   const std::vector<double> k = readMatrix(root, "camera_matrix", {9});
@@ -60,6 +75,7 @@ CameraFile parseRosCalibration(const YAML::Node& root) {
   check(model == "plumb_bob" || model == "rational_polynomial",
         "'distortion_model' is '" + model + "'; known are plumb_bob and rational_polynomial");
   file.distortion = readMatrix(root, "distortion_coefficients", {4, 5, 8});
+  if (root["depth_to_color"].IsDefined()) file.T_C_D = readPose(root, "depth_to_color");
   return file;
 }
 

@@ -1,11 +1,13 @@
-// Camera files: camera.yaml, what the TUM layout leaves unsaid (width, height, fx, fy, cx, cy and depth_scale, values a
-// metre), or a calibration as ROS's camera_calibration writes it (image_width, camera_matrix, distortion_model, ...).
+// Camera files: camera.yaml, what the TUM layout leaves unsaid (width, height, fx, fy, cx, cy and
+// depth_scale, values a metre), or a calibration as ROS's camera_calibration writes it (image_width,
+// camera_matrix, distortion_model, ...), with the pose of a colour camera, depth_to_color, if need be.
 #pragma once
 
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "depth_fusion/geometry/camera_intrinsics.h"
+#include "depth_fusion/geometry/lens_distortion.h"
+#include "depth_fusion/geometry/pose.h"
 
 namespace depth_fusion {
 
@@ -14,7 +16,8 @@ constexpr double kTumDepthScale = 5000.0;
 struct CameraFile {
   CameraIntrinsics camera;
   double depth_scale = kTumDepthScale;
-  std::vector<double> distortion;  // k1 k2 p1 p2 [k3 [k4 k5 k6]], OpenCV's order; empty: none
+  LensDistortion distortion;
+  std::optional<Pose> T_C_D;  // of a colour camera, where the file says it
 };
 
 // Throws Error naming the file and the key that is missing, unknown or not as it should be.

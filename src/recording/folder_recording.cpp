@@ -4,8 +4,8 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/recording/trajectory_file.h"
+#include "recording/calibrated_recording.h"
 #include "recording/camera_file.h"
-#include "recording/rectified_recording.h"
 
 namespace depth_fusion {
 
@@ -13,6 +13,13 @@ void readCamera(const std::string& path, RecordingOptions& options) {
   const CameraFile file = readCameraFile(path);
   options.intrinsics = file.camera;
   options.distortion = file.distortion;
+}
+
+void readColorCamera(const std::string& path, RecordingOptions& options) {
+  const CameraFile file = readCameraFile(path);
+  options.color_intrinsics = file.camera;
+  options.color_distortion = file.distortion;
+  options.T_C_D = file.T_C_D;
 }
 
 std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOptions& options) {
@@ -23,8 +30,8 @@ std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOp
   const bool is_empty = std::filesystem::is_empty(path, unreadable);
   check(!unreadable, path + ": the folder cannot be read: " + unreadable.message());
   check(!is_empty, path + ": the folder is empty; give one in the TUM or 7-Scenes layout");
-  if (hasTumLayout(path)) return openTumFolder(path, options);
-  if (hasSevenScenesLayout(path)) return rectified(openSevenScenesFolder(path, options), options.distortion);
+  if (hasTumLayout(path)) return calibrated(openTumFolder(path, options), options);
+  if (hasSevenScenesLayout(path)) return calibrated(openSevenScenesFolder(path, options), options);
   throw Error(
       path +
       ": is no recording; expected depth.txt (TUM layout) or frame-000000.depth.png (7-Scenes layout)");

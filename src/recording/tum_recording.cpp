@@ -7,7 +7,6 @@
 #include "recording/folder_recording.h"
 #include "recording/image_file.h"
 #include "recording/recording_intrinsics.h"
-#include "recording/rectified_recording.h"
 #include "recording/timed_files.h"
 
 namespace depth_fusion {
@@ -52,10 +51,7 @@ class TumRecording : public Recording {
       own = {kBenchmarkDefault, "the TUM benchmark's default"};
     }
     intrinsics_ = chooseIntrinsics(options.intrinsics, own, depth_size, folder);
-    if (options.intrinsics) distortion_ = options.distortion;
   }
-
-  const std::vector<double>& distortion() const { return distortion_; }
 
   std::optional<RgbdFrame> next() override {
     if (next_index_ == depth_files_.size()) return std::nullopt;
@@ -65,6 +61,7 @@ class TumRecording : public Recording {
     frame.depth = readDepthImage(depth_file.path);
     frame.depth_unit_m = depth_unit_m_;
     frame.intrinsics = intrinsics_.camera;
+    frame.distortion = distortion_;
     checkDepthSize(frame.depth, frame.intrinsics, depth_file.path);
     const TimedFile* color_file = nearestFile(color_files_, depth_file.stamp_s, max_pairing_gap_s_);
     if (color_file != nullptr) readColorOrProblem(frame, [&] { return readColorImage(color_file->path); });
@@ -87,7 +84,7 @@ class TumRecording : public Recording {
   std::vector<TimedFile> color_files_;
   double depth_unit_m_ = 1.0 / kTumDepthScale;
   RecordingIntrinsics intrinsics_;
-  std::vector<double> distortion_;
+  LensDistortion distortion_;
   size_t next_index_ = 0;
 };
 
@@ -96,9 +93,7 @@ class TumRecording : public Recording {
 bool hasTumLayout(const std::string& folder) { return exists(folder + "/depth.txt"); }
 
 std::unique_ptr<Recording> openTumFolder(const std::string& folder, const RecordingOptions& options) {
-  auto recording = std::make_unique<TumRecording>(folder, options);
-  const std::vector<double> distortion = recording->distortion();
-  return rectified(std::move(recording), distortion);
+  return std::make_unique<TumRecording>(folder, options);
 }
 
 }  // namespace depth_fusion

@@ -6,15 +6,16 @@ BagImage readImage(const rosbag::MessageInstance& place, const rosbag::Bag& bag)
   BagImage image;
   image.name = bag.getFileName() + ": " + place.getTopic();
   image.received_s = place.getTime().toSec();
-  ros::Time stamp;
+  std_msgs::Header header;
   if (place.getDataType() == kCompressedImageType) {
     image.compressed = readMessage<sensor_msgs::CompressedImage>(place, bag);
-    stamp = image.compressed->header.stamp;
+    header = image.compressed->header;
   } else {
     image.raw = readMessage<sensor_msgs::Image>(place, bag);
-    stamp = image.raw->header.stamp;
+    header = image.raw->header;
   }
-  image.stamp_s = stamp.isZero() ? image.received_s : stamp.toSec();
+  image.stamp_s = header.stamp.isZero() ? image.received_s : header.stamp.toSec();
+  image.frame_id = header.frame_id;
   return image;
 }
 

@@ -9,7 +9,8 @@ namespace depth_fusion {
 struct BagImage {
   std::string name;  // "file.bag: /topic", for messages
   double received_s = 0.0;
-  double stamp_s = 0.0;                             // of the header or, where that is zero, received_s
+  double stamp_s = 0.0;  // of the header or, where that is zero, received_s
+  std::string frame_id;
   sensor_msgs::ImageConstPtr raw;                   // null on a compressed topic
   sensor_msgs::CompressedImageConstPtr compressed;  // null on a raw topic
 };

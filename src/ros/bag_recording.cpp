@@ -80,6 +80,10 @@ class BagRecording : public Recording {
     frame.depth = depth.image;
     frame.depth_unit_m = depth.unit_m;
     frame.intrinsics = sources_.intrinsics.camera;
+    frame.distortion = sources_.distortion;
+    frame.color_intrinsics = sources_.color_intrinsics;
+    frame.color_distortion = sources_.color_distortion;
+    frame.T_C_D = sources_.T_C_D;
     checkDepthSize(frame.depth, frame.intrinsics, depth_image.name);
     if (const BagImage* color_image = nearestColor(frame.stamp_s))
       readColorOrProblem(frame, [&] { return toColor(*color_image); });

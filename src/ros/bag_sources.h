@@ -1,4 +1,4 @@
-// What of a bag makes its frames: the topics and the intrinsics.
+// What of a bag makes its frames: the topics, the cameras, and tf between them.
 #pragma once
 
 #include <rosbag/bag.h>
@@ -14,7 +14,11 @@ struct BagSources {
   std::string depth_topic;
   std::string color_topic;  // empty if there is none
   RecordingIntrinsics intrinsics;
-  std::string remark;  // what the user should know about them, or empty
+  LensDistortion distortion;
+  std::optional<CameraIntrinsics> color_intrinsics;  // where they are not those of the depth
+  LensDistortion color_distortion;
+  std::optional<Pose> T_C_D;  // where the frames of depth and colour differ
+  std::string remark;         // what the user should know about them, or empty
 };
 
 // Finds them, or takes the given ones. Throws Error naming the bag's topics if depth or intrinsics are not

@@ -153,10 +153,15 @@ CameraIntrinsics cameraFromInfo(const sensor_msgs::CameraInfo& info, const std::
   return {width, height, info.K[0], info.K[4], info.K[2], info.K[5]};
 }
 
-bool ignoresDistortion(const sensor_msgs::CameraInfo& info, const std::string& image_topic) {
-  const bool is_distorted =
-      std::any_of(info.D.begin(), info.D.end(), [](double coefficient) { return coefficient != 0.0; });
-  return is_distorted && !isRectified(info, image_topic);
+LensDistortion distortionFromInfo(const sensor_msgs::CameraInfo& info, const std::string& image_topic) {
+  if (isRectified(info, image_topic) || !distorts(info.D)) return {};
+  const std::string& model = info.distortion_model;  // empty in old bags
+  check(model == "plumb_bob" || model == "rational_polynomial" || model.empty(),
+        image_topic + ": the distortion model '" + model +
+            "' of its camera_info is not known; plumb_bob and rational_polynomial are, others must be "
+            "rectified before");
+  checkDistortion(info.D);
+  return info.D;
 }
 
 cv::Mat colorFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic) {

@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "depth_fusion/geometry/camera_intrinsics.h"
+#include "depth_fusion/geometry/lens_distortion.h"
 
 namespace depth_fusion {
 
@@ -34,7 +34,8 @@ cv::Mat colorFromCompressed(const sensor_msgs::CompressedImage& message, const s
 // Of a rectified image (image_rect*) the projection P, of another the camera matrix K.
 CameraIntrinsics cameraFromInfo(const sensor_msgs::CameraInfo& info, const std::string& image_topic);
 
-// The lens distorts the image, and cameraFromInfo leaves that out.
-bool ignoresDistortion(const sensor_msgs::CameraInfo& info, const std::string& image_topic);
+// What the lens does to it; nothing to a rectified image. Throws Error for a model that is neither plumb_bob
+// nor rational_polynomial.
+LensDistortion distortionFromInfo(const sensor_msgs::CameraInfo& info, const std::string& image_topic);
 
 }  // namespace depth_fusion

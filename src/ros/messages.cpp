@@ -51,13 +51,14 @@ sensor_msgs::Image makeDepthImage(const std_msgs::Header& header, const cv::Mat&
   return makeImage(header, metres, sensor_msgs::image_encodings::TYPE_32FC1);
 }
 
-sensor_msgs::CameraInfo makeCameraInfo(const std_msgs::Header& header, const CameraIntrinsics& camera) {
+sensor_msgs::CameraInfo makeCameraInfo(const std_msgs::Header& header, const CameraIntrinsics& camera,
+                                       const LensDistortion& lens) {
   sensor_msgs::CameraInfo info;
   info.header = header;
   info.width = static_cast<uint32_t>(camera.width);
   info.height = static_cast<uint32_t>(camera.height);
-  info.distortion_model = "plumb_bob";
-  info.D.assign(5, 0.0);
+  info.distortion_model = lens.size() > 5 ? "rational_polynomial" : "plumb_bob";
+  info.D = lens.empty() ? LensDistortion(5, 0.0) : lens;
   info.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
   info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
   info.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};

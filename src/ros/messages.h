@@ -10,7 +10,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "depth_fusion/geometry/camera_intrinsics.h"
+#include "depth_fusion/geometry/lens_distortion.h"
 #include "depth_fusion/geometry/pose.h"
 
 namespace depth_fusion {
@@ -28,7 +28,8 @@ sensor_msgs::Image makeColorImage(const std_msgs::Header& header, const cv::Mat&
 // Millimetres in 16 bits as 16UC1, anything else in metres as 32FC1.
 sensor_msgs::Image makeDepthImage(const std_msgs::Header& header, const cv::Mat& depth, double unit_m);
 
-sensor_msgs::CameraInfo makeCameraInfo(const std_msgs::Header& header, const CameraIntrinsics& camera);
+sensor_msgs::CameraInfo makeCameraInfo(const std_msgs::Header& header, const CameraIntrinsics& camera,
+                                       const LensDistortion& lens = {});
 
 geometry_msgs::Pose toMessage(const Pose& pose);
 // The covariance of the twist (rotation, translation) applied to the pose on the left, in ROS's order (translation first).

@@ -116,11 +116,13 @@ inline SimulationOptions smallRoom(int frames) {
   return options;
 }
 
-// Publishes frames as a driver does.
+// Publishes frames as a driver does; colour in a frame of its own if that is given.
 class FakeCamera {
  public:
-  explicit FakeCamera(ros::NodeHandle& handle, const std::string& frame_id = "camera_rgb_optical_frame")
+  explicit FakeCamera(ros::NodeHandle& handle, const std::string& frame_id = "camera_rgb_optical_frame",
+                      const std::string& color_frame_id = "")
       : frame_id_(frame_id),
+        color_frame_id_(color_frame_id.empty() ? frame_id : color_frame_id),
         depth_(handle.advertise<sensor_msgs::Image>("depth/image", 10)),
         depth_info_(handle.advertise<sensor_msgs::CameraInfo>("depth/camera_info", 10)),
         color_(handle.advertise<sensor_msgs::Image>("rgb/image", 10)),
@@ -136,11 +138,12 @@ class FakeCamera {
   std_msgs::Header headerOf(const RgbdFrame& frame) const { return makeHeader(toRosTime(frame.stamp_s), frame_id_); }
 
   void publishColor(const RgbdFrame& frame) {
-    color_info_.publish(makeCameraInfo(headerOf(frame), colorCamera(frame)));
-    color_.publish(boost::make_shared<sensor_msgs::Image>(makeColorImage(headerOf(frame), frame.color)));
+    const std_msgs::Header header = makeHeader(toRosTime(frame.stamp_s), color_frame_id_);
+    color_info_.publish(makeCameraInfo(header, colorCamera(frame), frame.color_distortion));
+    color_.publish(boost::make_shared<sensor_msgs::Image>(makeColorImage(header, frame.color)));
   }
   sensor_msgs::ImageConstPtr publishDepth(const RgbdFrame& frame) {
-    depth_info_.publish(makeCameraInfo(headerOf(frame), frame.intrinsics));
+    depth_info_.publish(makeCameraInfo(headerOf(frame), frame.intrinsics, frame.distortion));
     const auto image = boost::make_shared<sensor_msgs::Image>(makeDepthImage(headerOf(frame), frame.depth, frame.depth_unit_m));
     depth_.publish(image);
     return image;
@@ -151,7 +154,7 @@ class FakeCamera {
   }
 
  private:
-  std::string frame_id_;
+  std::string frame_id_, color_frame_id_;
   ros::Publisher depth_, depth_info_, color_, color_info_;
 };
 

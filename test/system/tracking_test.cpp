@@ -114,9 +114,10 @@ class Desk : public testing::Test {
     loadParameterFile(parameters_.table(), "cfg/kinect_v1.yaml");
     truth_ = readPoses(folder_);
   }
-  std::unique_ptr<Recording> open() const { return openFolder(folder_, options_); }
+  std::unique_ptr<Recording> open() { return registered(openFolder(folder_, options_), compute_, {}); }
 
   const std::string folder_ = realDataFolder("tum_fr1_xyz");
+  ComputeContext compute_;
   RecordingOptions options_;
   PipelineParameters parameters_;
   Trajectory truth_;

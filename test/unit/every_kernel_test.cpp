@@ -81,6 +81,18 @@ TEST_F(EveryKernel, OfTheLimits) {
   EXPECT_EQ(b.read<float>(1), a.read<float>(1));
 }
 
+TEST_F(EveryKernel, OfRegistration) {
+  RegistrationParameters parameters;
+  parameters.depth_to_color = true;
+  RgbdFrame frame = roomFrame(0);
+  frame.distortion = {0.1, -0.05, 0.001, 0.001, 0.01, 0.05, 0.02, 0.01};
+  FrameRegistration registration(compute, parameters);
+  EXPECT_GT(cv::countNonZero(registration.process(frame).depth), 0);
+  frame.depth.convertTo(frame.depth, CV_16UC1, 1000.0);
+  frame.depth_unit_m = 0.001;
+  EXPECT_GT(cv::countNonZero(registration.process(frame).depth), 0);
+}
+
 TEST_F(EveryKernel, OfPreprocessing) {
   DepthPreprocessor preprocessor(compute, smallParameters().preprocessing, kCamera);
   RgbdFrame frame = roomFrame(0);

@@ -4,11 +4,12 @@
 #include <fstream>
 #include <opencv2/calib3d.hpp>
 
-#include "depth_fusion/recording/recording.h"
 #include "depth_fusion/recording/recording_writer.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "recording/text_file.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
+#include "support/test_compute.h"
 
 namespace depth_fusion {
 namespace {
@@ -56,6 +57,10 @@ std::string calibrationText(const std::string& model) {
          "\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0.2624, -0.9531, -0.0054, 0.0026, 1.1633]\n";
 }
 
+std::unique_ptr<Recording> openRegistered(const std::string& path, const RecordingOptions& options) {
+  return registered(openFolder(path, options), compute(), {});
+}
+
 struct Difference {
   double depth_m, brightness;
 };
@@ -63,7 +68,10 @@ struct Difference {
 // Means over the middle of the image, which both see.
 Difference meanDifference(const RgbdFrame& a, const RgbdFrame& b) {
   const cv::Rect middle(20, 20, kCamera.width - 40, kCamera.height - 40);
-  return {cv::norm(a.depth(middle), b.depth(middle), cv::NORM_L1) / middle.area() * a.depth_unit_m,
+  cv::Mat depth_a, depth_b;  // metres
+  a.depth(middle).convertTo(depth_a, CV_32F, a.depth_unit_m);
+  b.depth(middle).convertTo(depth_b, CV_32F, b.depth_unit_m);
+  return {cv::norm(depth_a, depth_b, cv::NORM_L1) / middle.area(),
           cv::norm(a.color(middle), b.color(middle), cv::NORM_L1) / middle.area() / 3.0};
 }
 
@@ -74,12 +82,11 @@ TEST(RectifiedRecording, ShowsWhatAPinholeCameraSees) {
   RecordingOptions options;
   const Difference raw = meanDifference(*openFolder(path, options)->next(), frameOf(false));
   readCamera(folder / "camera.yaml", options);
-  const auto recording = openFolder(path, options);
+  const auto recording = openRegistered(path, options);
   const Difference rectified = meanDifference(*recording->next(), frameOf(false));
   EXPECT_LT(rectified.depth_m, 0.25 * raw.depth_m) << "the nearest pixel's";
   EXPECT_LT(rectified.brightness, 0.15 * raw.brightness);
   EXPECT_LT(rectified.depth_m, 0.001);
-  EXPECT_NE(recording->description().find("rectified"), std::string::npos);
   EXPECT_FALSE(recording->next().has_value());
 }
 
@@ -87,7 +94,7 @@ TEST(RectifiedRecording, ARecordingsOwnCalibrationCounts) {
   const TemporaryFolder folder;
   const std::string path = writeRecording(folder, frameOf(true));
   writeText(path + "/camera.yaml", calibrationText("plumb_bob"));
-  EXPECT_LT(meanDifference(*openFolder(path, {})->next(), frameOf(false)).depth_m, 0.001);
+  EXPECT_LT(meanDifference(*openRegistered(path, {})->next(), frameOf(false)).depth_m, 0.001);
 }
 
 TEST(RectifiedRecording, WrongCalibrationsAreNamed) {
@@ -100,6 +107,24 @@ TEST(RectifiedRecording, WrongCalibrationsAreNamed) {
   options.intrinsics = kCamera;
   options.distortion = {0.1, 0.2, 0.3};
   expectError([&] { openFolder(path, options); }, {"4, 5 or 8 coefficients", "not 3"});
+}
+
+TEST(RectifiedRecording, AColorCameraMayStandBesideTheDepthCamera) {
+  const TemporaryFolder folder;
+  const std::string path = writeRecording(folder, frameOf(false));
+  const std::string matrix = "depth_to_color:\n  rows: 4\n  cols: 4\n  data: [1, 0, 0, ";
+  writeText(folder / "color.yaml",
+            calibrationText("plumb_bob") + matrix + "-0.025, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n");
+  RecordingOptions options;
+  readColorCamera(folder / "color.yaml", options);
+  const auto frame = openFolder(path, options)->next();
+  EXPECT_TRUE(frame->distortion.empty());
+  EXPECT_EQ(frame->color_distortion, kDistortion);
+  EXPECT_TRUE(frame->T_C_D->isApprox(Pose(Eigen::Translation3d(-0.025, 0.0, 0.0))));
+  writeText(folder / "color.yaml",
+            calibrationText("plumb_bob") + matrix + "-0.025, 0, 2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n");
+  expectError([&] { readColorCamera(folder / "color.yaml", options); },
+              {"color.yaml", "depth_to_color", "no rigid motion"});
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "depth_fusion/map/block_sparse_map.h"
 #include "depth_fusion/model_view/model_view.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "depth_fusion/relocalisation/relocaliser.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "depth_fusion/texture_odometry/texture_odometry.h"
@@ -15,6 +16,7 @@ namespace depth_fusion {
 
 struct PipelineParameters {
   MapParameters map;
+  RegistrationParameters registration;
   DepthSensorParameters depth_sensor;
   PreprocessingParameters preprocessing;
   TextureOdometryParameters texture_odometry;

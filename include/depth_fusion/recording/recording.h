@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "depth_fusion/recording/rgbd_frame.h"
 
@@ -27,9 +26,10 @@ class Recording {
 
 struct RecordingOptions {
   std::optional<CameraIntrinsics> intrinsics;  // instead of the recording's own (width, height 0: the images')
-  // Lens distortion of the images: k1 k2 p1 p2 [k3 [k4 k5 k6]] (OpenCV's order, of plumb_bob and rational_polynomial);
-  // the frames come rectified. Counts with intrinsics only; without those, the recording's own camera file says it.
-  std::vector<double> distortion;
+  LensDistortion distortion;                   // with intrinsics; without, the recording's own counts
+  std::optional<CameraIntrinsics> color_intrinsics;  // of a colour camera beside the depth camera
+  LensDistortion color_distortion;             // with color_intrinsics
+  std::optional<Pose> T_C_D;                   // with color_intrinsics
   double max_pairing_gap_s = 0.02;             // colour farther from its depth than this is left out
   std::string depth_topic;                     // bags only; empty: found by type and name
   std::string color_topic;                     // bags only; empty: found by type and name
@@ -38,6 +38,9 @@ struct RecordingOptions {
 // The intrinsics and the distortion of a camera file: this package's camera.yaml, or a calibration as ROS's
 // camera_calibration writes it. Throws Error naming the file and the key that is missing or wrong.
 void readCamera(const std::string& path, RecordingOptions& options);
+// The same of the colour camera. The file may say where it is: `depth_to_color`, a 4x4 matrix that takes
+// points of the depth camera to this one (metres).
+void readColorCamera(const std::string& path, RecordingOptions& options);
 
 // Opens a folder in the TUM or the 7-Scenes layout, found out by looking. Throws Error for any other path.
 std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOptions& options);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "depth_fusion/geometry/camera_intrinsics.h"
+#include "depth_fusion/geometry/lens_distortion.h"
 #include "depth_fusion/geometry/pose.h"
 
 namespace depth_fusion {
@@ -22,6 +23,7 @@ struct RgbdFrame {
   std::optional<CameraIntrinsics>
       color_intrinsics;       // unset: colour has the depth camera's, depth is registered to it
   std::optional<Pose> T_C_D;  // unset: depth is registered to colour
+  LensDistortion distortion, color_distortion;  // of the images; FrameRegistration takes it out
   std::optional<Pose> T_W_D;  // reference pose, where the recording has one for this very frame
 };
 

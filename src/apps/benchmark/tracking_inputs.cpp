@@ -7,6 +7,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "depth_fusion/simulation/simulated_recording.h"
 
 namespace depth_fusion {
@@ -32,9 +33,12 @@ TrackingInput recorded(const std::string& name, const std::string& folder, const
   input.name = name;
   RecordingOptions options;
   if (!camera.empty()) readCamera(camera, options);
-  input.open = [folder, options] { return openFolder(folder, options); };
-  input.truth = readPoses(folder);
   loadParameterFile(input.parameters.table(), params);
+  input.open = [folder, options, compute = std::make_shared<ComputeContext>(),
+                parameters = input.parameters.registration] {
+    return registered(openFolder(folder, options), *compute, parameters);
+  };
+  input.truth = readPoses(folder);
   return input;
 }
 

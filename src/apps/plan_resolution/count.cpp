@@ -7,6 +7,7 @@
 #include "depth_fusion/evaluation/block_count.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "pipeline/depth_in_range.h"
 #include "ros/recording.h"
@@ -94,11 +95,14 @@ struct BlockCounting::Mesh : BlockCounting::Surface {
 // A recording, read as often as needed.
 struct BlockCounting::Frames : BlockCounting::Surface {
   explicit Frames(const CountingOptions& counting_options)
-      : options(counting_options),
-        compute(options.device),
-        recording(openRecording(options.input, options.recording)) {
+      : options(counting_options), compute(options.device), recording(open()) {
     std::cout << "input: " << recording->description() << std::endl;
     if (!options.trajectory_file.empty()) trajectory = readPoses(options.trajectory_file);
+  }
+
+  std::unique_ptr<Recording> open() {
+    return registered(openRecording(options.input, options.recording), compute,
+                      options.parameters.registration);
   }
 
   void count(ResolutionPlan& plan) override {
@@ -156,7 +160,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
 
   template <class Visit>
   void forEach(const std::string& what, const Visit& visit) {
-    if (!recording) recording = openRecording(options.input, options.recording);
+    if (!recording) recording = open();
     const size_t all = recording->frameCount();
     const size_t count = options.max_frames == 0 ? all : std::min(all, options.max_frames);
     for (size_t i = 0; i < count; ++i) {

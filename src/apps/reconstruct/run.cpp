@@ -14,6 +14,7 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/percentile.h"
 #include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "ros/recording.h"
 
@@ -67,7 +68,8 @@ class Run {
 
 Run::Run(const RunOptions& options) : options_(options), compute_(options.device) {
   std::cout << "device: " << compute_.selfTestReport() << std::endl;
-  recording_ = openRecording(options.input, options.recording);
+  recording_ =
+      registered(openRecording(options.input, options.recording), compute_, options.parameters.registration);
   std::cout << "input: " << recording_->description() << std::endl;
   if (!options.trajectory_file.empty()) poses_ = readPoses(options.trajectory_file);
   std::error_code error;

@@ -13,7 +13,7 @@ struct RunOptions {
   std::string input;
   std::string output;
   std::vector<std::string> parameter_files;
-  std::string camera_file;
+  std::string camera_file, color_camera_file;
   std::string trajectory_file;
   std::string device;
   size_t max_frames = 0;  // 0 = all

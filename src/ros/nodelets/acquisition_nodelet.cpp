@@ -11,7 +11,9 @@
 #include <thread>
 
 #include "depth_fusion/common/percentile.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "ros/messages.h"
+#include "ros/nodelets/shared_map.h"
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/recording.h"
 
@@ -29,6 +31,7 @@ class AcquisitionNodelet : public StageNodelet {
 
  private:
   void start() override;
+  std::unique_ptr<Recording> open();
   // In the thread:
   void play();
   void playOnce();
@@ -53,6 +56,7 @@ class AcquisitionNodelet : public StageNodelet {
   bool lossless_ = false, loop_ = false, restamp_ = false, publish_clock_ = false;
   float rate_ = 1.0f, lossless_timeout_s_ = 60.0f, settle_s_ = 1.0f;
 
+  std::shared_ptr<ComputeContext> compute_;
   std::unique_ptr<Recording> recording_;
   ros::Publisher depth_publisher_, depth_info_publisher_, color_publisher_, color_info_publisher_, clock_publisher_;
   ros::Subscriber map_subscriber_, tracker_subscriber_;
@@ -95,7 +99,8 @@ void AcquisitionNodelet::start() {
        {"settle_s", &settle_s_, 0.0, 60.0, "begin when no subscriber has come or gone for so long"}}));
   check(!recording_path_.empty(), "give the parameter recording");
   if (!camera_file_.empty()) readCamera(camera_file_, options_);
-  recording_ = openRecording(recording_path_, options_);
+  compute_ = sharedCompute("");
+  recording_ = open();
   NODELET_INFO_STREAM(getName() << ": " << recording_->description());
 
   ros::NodeHandle& handle = getMTNodeHandle();
@@ -118,11 +123,17 @@ void AcquisitionNodelet::start() {
   thread_ = std::thread([this] { play(); });
 }
 
+std::unique_ptr<Recording> AcquisitionNodelet::open() {
+  RegistrationParameters parameters;
+  parameters.depth_to_color = true;  // all images are in one frame
+  return registered(openRecording(recording_path_, options_), *compute_, parameters);
+}
+
 void AcquisitionNodelet::play() {
   try {
     awaitListeners();
     do {
-      if (recording_ == nullptr) recording_ = openRecording(recording_path_, options_);
+      if (recording_ == nullptr) recording_ = open();
       playOnce();
       recording_.reset();
     } while (loop_ && sleep(0.0));

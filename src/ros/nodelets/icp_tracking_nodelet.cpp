@@ -110,7 +110,7 @@ void IcpTrackingNodelet::subscribe() {
     return;
   }
   sensor_subscriber_ = std::make_unique<RgbdSubscriber>(
-      getMTNodeHandle(), rgbd_, counter_, [this](const SensorFramePtr& sensor) {
+      getMTNodeHandle(), rgbd_, device_, counter_, [this](const SensorFramePtr& sensor) {
         auto frame = std::make_shared<TexturedFrame>();
         frame->sensor = sensor;
         frame->motion.reason = frame->features.reason = "no texture odometry";
@@ -139,7 +139,8 @@ void IcpTrackingNodelet::loadAll() {
        0,
        "what a clock that goes back does to the map: begin anew, or keep it and find the sensor in it",
        {"reset", "keep"}});
-  loadParameters(table, {{"depth_sensor", parameters_.depth_sensor.table()},
+  loadParameters(table, {{"registration", rgbd_.registration.table()},
+                         {"depth_sensor", parameters_.depth_sensor.table()},
                          {"preprocessing", parameters_.preprocessing.table()},
                          {"relocalisation", parameters_.relocalisation.table()}});
 }

@@ -5,6 +5,8 @@
 
 #include "depth_fusion/common/error.h"
 #include "ros/image_conversions.h"
+#include "ros/messages.h"
+#include "ros/nodelets/shared_map.h"
 
 namespace depth_fusion {
 namespace {
@@ -13,7 +15,7 @@ constexpr uint32_t kTopicQueue = 30;
 constexpr size_t kColorsKept = 30;
 // Stamps that go back by less are images out of order, by more a clock that was set back.
 constexpr double kClockJump_s = 1.0;
-constexpr double kMaxInfoWait_s = 0.5;
+constexpr double kMaxInfoWait_s = 0.5;  // for camera_info and tf
 constexpr double kReleasePeriod_s = 0.02;
 
 }  // namespace
@@ -25,9 +27,13 @@ ParameterTable RgbdParameters::table() {
           {"max_color_wait_s", &max_color_wait_s, 0.0, 10.0, "how long a depth image waits for its colour"}};
 }
 
-RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& parameters, FrameCounter& counter,
-                               Callback callback)
-    : parameters_(parameters), counter_(counter), callback_(std::move(callback)) {
+RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& parameters,
+                               const std::string& device, FrameCounter& counter, Callback callback)
+    : handle_(handle),
+      parameters_(parameters),
+      device_(device),
+      counter_(counter),
+      callback_(std::move(callback)) {
   const std::lock_guard<std::mutex> lock(mutex_);
   subscribe(handle);
   problem_ = "no depth image yet on " + depth_topic_;
@@ -95,6 +101,7 @@ void RgbdSubscriber::subscribe(ros::NodeHandle& handle) {
 void RgbdSubscriber::setParameters(const RgbdParameters& parameters) {
   const std::lock_guard<std::mutex> lock(mutex_);
   parameters_ = parameters;
+  if (registration_ != nullptr) registration_->setParameters(parameters.registration);
 }
 
 std::string RgbdSubscriber::problem() const {
@@ -150,11 +157,61 @@ void RgbdSubscriber::takeCamera(SensorFrame& frame) const {
   check(camera.width == frame.rgbd.depth.cols && camera.height == frame.rgbd.depth.rows,
         info_topic_ + " is for " + sizeText(camera.width, camera.height) + ", " + depth_topic_ + " is " +
             sizeText(frame.rgbd.depth.cols, frame.rgbd.depth.rows));
-  if (ignoresDistortion(*depth_info_, depth_topic_)) {
-    ROS_WARN_ONCE("%s: the lens distorts the image, which is left uncorrected; subscribe to rectified images (image_proc)",
-                  info_topic_.c_str());
-  }
   frame.rgbd.intrinsics = camera;
+  frame.rgbd.distortion = frame.rgbd.color_distortion = distortionFromInfo(*depth_info_, depth_topic_);
+}
+
+void RgbdSubscriber::takeColorCamera(SensorFrame& frame) const {
+  if (color_info_ == nullptr) return;
+  const CameraIntrinsics camera = cameraFromInfo(*color_info_, color_topic_);
+  if (!camera.valid()) return;
+  if (!sameCamera(camera, frame.rgbd.intrinsics)) frame.rgbd.color_intrinsics = camera;
+  frame.rgbd.color_distortion = distortionFromInfo(*color_info_, color_topic_);
+  const std::string color_frame = otherColorFrame(frame.header);
+  if (!color_frame.empty()) frame.rgbd.T_C_D = lookUpColorCamera(color_frame, frame.header.frame_id);
+}
+
+std::string RgbdSubscriber::otherColorFrame(const std_msgs::Header& depth) const {
+  if (color_info_ == nullptr || depth.frame_id.empty() || color_info_->header.frame_id == depth.frame_id)
+    return "";
+  return color_info_->header.frame_id;
+}
+
+Pose RgbdSubscriber::lookUpColorCamera(const std::string& color_frame, const std::string& depth_frame) const {
+  try {
+    return fromMessage(tf_->lookupTransform(color_frame, depth_frame, ros::Time(0)).transform);
+  } catch (const tf2::TransformException&) {
+    throw Error("depth is in the frame " + depth_frame + ", colour in " + color_frame +
+                ", and tf does not connect them; publish where the cameras are (rosrun tf2_ros "
+                "static_transform_publisher X "
+                "Y Z YAW PITCH ROLL " +
+                color_frame + " " + depth_frame + "), or let the driver register depth to colour");
+  }
+}
+
+bool RgbdSubscriber::knowsCameras(const std_msgs::Header& depth) {
+  if (depth_info_ == nullptr) return false;
+  const std::string color_frame = otherColorFrame(depth);
+  if (color_frame.empty()) return true;
+  if (tf_ == nullptr) {
+    tf_ = std::make_unique<tf2_ros::Buffer>();
+    tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_, handle_);
+  }
+  return tf_->canTransform(color_frame, depth.frame_id, ros::Time(0));
+}
+
+void RgbdSubscriber::registerFrame(SensorFrame& frame) {
+  if (!needsRegistration(frame.rgbd, parameters_.registration)) {
+    frame.rgbd = withDepthUnit(frame.rgbd, parameters_.registration);
+    return;
+  }
+  if (registration_ == nullptr) {
+    compute_ = sharedCompute(device_)->anotherQueue();
+    registration_ = std::make_unique<FrameRegistration>(*compute_, parameters_.registration);
+  }
+  const bool was_beside = frame.rgbd.T_C_D.has_value();
+  frame.rgbd = registration_->process(frame.rgbd);
+  if (was_beside && !frame.rgbd.T_C_D) frame.header.frame_id = color_info_->header.frame_id;
 }
 
 void RgbdSubscriber::onColor(ColorImage color) {
@@ -171,19 +228,21 @@ void RgbdSubscriber::release() {
     pending_.pop_front();
     try {
       takeCamera(*frame);
+      takeColorCamera(*frame);
+      addColor(*frame);
+      registerFrame(*frame);
     } catch (const std::exception& error) {
-      drop("unusable camera_info", error.what());
+      drop("unusable camera_info or tf", error.what());
       continue;
     }
     problem_.clear();
-    addColor(*frame);
     callback_(frame);
   }
 }
 
-bool RgbdSubscriber::isComplete(const PendingDepth& depth) const {
+bool RgbdSubscriber::isComplete(const PendingDepth& depth) {
   const double waited_s = (ros::WallTime::now() - depth.received).toSec();
-  if (depth_info_ == nullptr) return waited_s > kMaxInfoWait_s;
+  if (!knowsCameras(depth.frame->header)) return waited_s > kMaxInfoWait_s;
   if (color_subscriber_.getNumPublishers() == 0 && colors_.empty()) return true;
   for (const ColorImage& color : colors_) {
     if (color.header.stamp >= depth.frame->header.stamp) return true;
@@ -210,10 +269,6 @@ void RgbdSubscriber::addColor(SensorFrame& frame) {
     frame.rgbd.color = color->raw ? colorFromImage(*color->raw, color_topic_)
                                   : colorFromCompressed(*color->compressed, color_topic_);
     frame.color_message = color->raw;
-    if (color_info_ != nullptr) {
-      const CameraIntrinsics camera = cameraFromInfo(*color_info_, color_topic_);
-      if (camera.valid() && !sameCamera(camera, frame.rgbd.intrinsics)) frame.rgbd.color_intrinsics = camera;
-    }
     const std::string problem = colorProblem(frame.rgbd);
     check(problem.empty(), color_topic_ + ": " + problem);
   } catch (const std::exception& error) {

@@ -6,6 +6,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
+#include <tf2_ros/transform_listener.h>
 
 #include <deque>
 #include <functional>
@@ -13,7 +14,7 @@
 #include <optional>
 #include <string>
 
-#include "depth_fusion/common/parameters.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "ros/nodelets/frame_counter.h"
 #include "ros/nodelets/frames.h"
 
@@ -24,19 +25,24 @@ struct RgbdParameters {
   std::string color_transport = "raw";
   float max_pairing_gap_s = 0.02f;
   float max_color_wait_s = 0.1f;
+  RegistrationParameters registration;  // a table of its own
 
   ParameterTable table();
 };
 
 // Subscribes depth/image, depth/camera_info, rgb/image and rgb/camera_info of the node handle's namespace, or with a
 // compressed transport depth/image/compressedDepth, rgb/image/compressed. A depth image goes on with the colour image nearest
-// in time, or without one when none comes; what cannot be used is dropped, counted by its reason, and warned of.
+// in time, or without one when none comes; what cannot be used is dropped, counted by its reason, and warned of. Frames
+// come registered: without lens distortion, and with the way from the depth camera to the colour camera, which tf says where
+// their frames differ.
 class RgbdSubscriber {
  public:
   using Callback = std::function<void(const SensorFramePtr&)>;
 
   // Frames come in the order of their stamps, from the threads of the handle's callback queue.
-  RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& parameters, FrameCounter& counter, Callback callback);
+  // device: as ComputeContext has it; opened if a frame needs it.
+  RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& parameters, const std::string& device,
+                 FrameCounter& counter, Callback callback);
 
   // For the images to come; the transports stay.
   void setParameters(const RgbdParameters& parameters);
@@ -64,14 +70,23 @@ class RgbdSubscriber {
   // Sees to the order of the stamps. False if the frame is not to be used.
   bool takeStamp(SensorFrame& frame);
   void takeCamera(SensorFrame& frame) const;
+  void takeColorCamera(SensorFrame& frame) const;
+  void registerFrame(SensorFrame& frame);
+  // The colour camera's frame, if that is another than the depth's; else empty.
+  std::string otherColorFrame(const std_msgs::Header& depth) const;
+  Pose lookUpColorCamera(const std::string& color_frame, const std::string& depth_frame) const;
   // Sends on the depth images whose colour is there or will not come.
   void release();
-  bool isComplete(const PendingDepth& depth) const;
+  bool isComplete(const PendingDepth& depth);
+  // What the camera_info topics and tf say about the cameras is there.
+  bool knowsCameras(const std_msgs::Header& depth);
   void addColor(SensorFrame& frame);
   const ColorImage* nearestColor(const ros::Time& stamp) const;
   void drop(const std::string& reason, const std::string& detail = "");
 
+  ros::NodeHandle handle_;
   RgbdParameters parameters_;
+  std::string device_;
   FrameCounter& counter_;
   Callback callback_;
   mutable std::mutex mutex_;
@@ -84,6 +99,11 @@ class RgbdSubscriber {
   std::optional<ros::Time> last_stamp_;
   uint32_t clock_jumps_ = 0;
   std::string problem_;
+  // Made when first needed:
+  std::unique_ptr<tf2_ros::Buffer> tf_;
+  std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+  std::unique_ptr<ComputeContext> compute_;
+  std::unique_ptr<FrameRegistration> registration_;
 };
 
 }  // namespace depth_fusion

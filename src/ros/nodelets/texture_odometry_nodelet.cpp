@@ -30,7 +30,7 @@ class TextureOdometryNodelet : public StageNodelet {
   TextureOdometryParameters parameters_;
   DepthSensorParameters depth_sensor_;
   RgbdParameters rgbd_;
-  std::string odom_frame_ = "texture_odom";
+  std::string device_, odom_frame_ = "texture_odom";
   int queue_size_ = 3;
   std::unique_ptr<TextureOdometry> odometry_;
   std::shared_ptr<const TextureOdometryParameters>
@@ -48,6 +48,7 @@ class TextureOdometryNodelet : public StageNodelet {
 void TextureOdometryNodelet::start() {
   ParameterTable table = parameters_.table();
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
+  table.push_back(deviceRow(device_));
   table.push_back({"odom_frame",
                     &odom_frame_,
                     0,
@@ -56,7 +57,7 @@ void TextureOdometryNodelet::start() {
                     {},
                     true});
   table.push_back(queueSizeRow(queue_size_));
-  loadParameters(table, {{"depth_sensor", depth_sensor_.table()}});
+  loadParameters(table, {{"registration", rgbd_.registration.table()}, {"depth_sensor", depth_sensor_.table()}});
   odometry_ = std::make_unique<TextureOdometry>(parameters_, depth_sensor_);
 
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
@@ -65,8 +66,8 @@ void TextureOdometryNodelet::start() {
   worker_ = std::make_unique<Worker<SensorFramePtr>>(
       queue_size_, [this](const SensorFramePtr& frame) { process(frame); },
       [this](const SensorFramePtr&) { counter_.drop("too slow"); });
-  subscriber_ = std::make_unique<RgbdSubscriber>(
-      getMTNodeHandle(), rgbd_, counter_, [this](const SensorFramePtr& frame) { worker_->push(frame); });
+  subscriber_ = std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, device_, counter_,
+                                                 [this](const SensorFramePtr& frame) { worker_->push(frame); });
   startReporting();
 }
 

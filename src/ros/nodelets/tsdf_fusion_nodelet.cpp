@@ -139,6 +139,7 @@ void TsdfFusionNodelet::loadAll() {
   for (const ParameterTable& rows : {rgbd_.table(), own, picture_parameters_.table()})
     table.insert(table.end(), rows.begin(), rows.end());
   loadParameters(table, {{"map", parameters_.map.table()},
+                         {"registration", rgbd_.registration.table()},
                          {"depth_sensor", parameters_.depth_sensor.table()},
                          {"preprocessing", parameters_.preprocessing.table()},
                          {"color_fusion", parameters_.color_fusion.table()}});
@@ -160,7 +161,7 @@ void TsdfFusionNodelet::subscribe() {
         [this](const TrackedFrameMessage::ConstPtr& message) { worker_->push(message->payload); });
   } else {
     posed_subscriber_ = std::make_unique<PosedFrameSubscriber>(
-        getMTNodeHandle(), rgbd_, map_frame_, tf_queue_size_, counter_,
+        getMTNodeHandle(), rgbd_, device_, map_frame_, tf_queue_size_, counter_,
         [this](const TrackedFramePtr& frame) { worker_->push(frame); });
   }
 }

@@ -1,0 +1,61 @@
+// Registration: frames as sensors give them become frames as the other stages take them. Lens distortion is
+// taken out of depth and colour, depth units are set right, and, if wanted, depth is moved to the colour
+// camera.
+#pragma once
+
+#include <memory>
+
+#include "depth_fusion/common/parameters.h"
+#include "depth_fusion/compute/compute_context.h"
+#include "depth_fusion/recording/recording.h"
+
+namespace depth_fusion {
+
+struct RegistrationParameters {
+  float depth_unit_m = 0.0f;
+  float depth_scale = 1.0f;
+  bool depth_to_color = false;
+  float max_relative_step = 0.03f;
+
+  ParameterTable table();
+};
+
+// The frame's images have to be changed.
+bool needsRegistration(const RgbdFrame& frame, const RegistrationParameters& parameters);
+
+// The depth's units, as the parameters say; nothing else.
+RgbdFrame withDepthUnit(const RgbdFrame& frame, const RegistrationParameters& parameters);
+
+// The camera that depth is moved to: the colour camera, halved until a pixel is not much finer than one of
+// the depth camera.
+CameraIntrinsics registeredCamera(const CameraIntrinsics& color_camera, const CameraIntrinsics& depth_camera);
+
+class FrameRegistration {
+ public:
+  FrameRegistration(ComputeContext& compute, const RegistrationParameters& parameters);
+  ~FrameRegistration();
+
+  // For the frames to come.
+  void setParameters(const RegistrationParameters& parameters);
+  // The frame as pinhole cameras see it. Depth that had to be changed is CV_32FC1 in metres, interpolated
+  // only within a surface; with depth_to_color it is the colour camera's, where near things hide far ones and
+  // what only the colour camera sees has no depth. What is right as it is shares the frame's memory. T_W_D
+  // stays the pose of the depth's camera. Throws Error for a distortion that cannot be undone, for images of
+  // another size than their cameras, and for weights on depth that has to be changed.
+  RgbdFrame process(const RgbdFrame& frame);
+
+ private:
+  struct Depth;
+  struct Color;
+
+  ComputeContext& compute_;
+  RegistrationParameters parameters_;
+  std::unique_ptr<Depth> depth_;  // null before the first frame that needs them
+  std::unique_ptr<Color> color_;
+};
+
+// The recording with its frames registered.
+std::unique_ptr<Recording> registered(std::unique_ptr<Recording> recording, ComputeContext& compute,
+                                      const RegistrationParameters& parameters);
+
+}  // namespace depth_fusion

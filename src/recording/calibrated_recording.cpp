@@ -1,0 +1,42 @@
+#include "recording/calibrated_recording.h"
+
+namespace depth_fusion {
+namespace {
+
+class CalibratedRecording : public Recording {
+ public:
+  CalibratedRecording(std::unique_ptr<Recording> recording, const RecordingOptions& options)
+      : recording_(std::move(recording)), options_(options) {
+    checkDistortion(options.distortion);
+    checkDistortion(options.color_distortion);
+  }
+
+  std::optional<RgbdFrame> next() override {
+    std::optional<RgbdFrame> frame = recording_->next();
+    if (!frame) return frame;
+    if (options_.intrinsics) frame->distortion = options_.distortion;
+    if (options_.color_intrinsics) {
+      frame->color_intrinsics = options_.color_intrinsics;
+      frame->color_distortion = options_.color_distortion;
+      frame->T_C_D = options_.T_C_D;
+    } else if (!frame->color_intrinsics) {
+      frame->color_distortion = frame->distortion;
+    }
+    return frame;
+  }
+
+  size_t frameCount() const override { return recording_->frameCount(); }
+  std::string description() const override { return recording_->description(); }
+
+ private:
+  std::unique_ptr<Recording> recording_;
+  RecordingOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Recording> calibrated(std::unique_ptr<Recording> recording, const RecordingOptions& options) {
+  return std::make_unique<CalibratedRecording>(std::move(recording), options);
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,14 @@
+// A recording whose cameras are as the user says.
+#pragma once
+
+#include <memory>
+
+#include "depth_fusion/recording/recording.h"
+
+namespace depth_fusion {
+
+// Frames with the lens distortion and the colour camera of the options. Colour without a camera of its own is
+// registered to depth, and has been through the same lens.
+std::unique_ptr<Recording> calibrated(std::unique_ptr<Recording> recording, const RecordingOptions& options);
+
+}  // namespace depth_fusion
