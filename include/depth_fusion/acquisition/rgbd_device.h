@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,9 +48,11 @@ class RgbdDevice {
  public:
   virtual ~RgbdDevice() = default;
 
-  // The next image of any stream; nothing after the given time. Throws Error if the device is unplugged or has fallen silent;
-  // it is then of no more use.
-  virtual std::optional<DeviceImage> next(double timeout_s) = 0;
+  // Until there is an image, of any stream; false after the given time. Throws Error if the device is unplugged or has fallen
+  // silent; it is then of no more use.
+  virtual bool await(double timeout_s) = 0;
+  // The image that await() has found.
+  virtual DeviceImage read() = 0;
 
   // Of the images' pixels: give them back when they have been read.
   virtual std::shared_ptr<FrameBuffers> buffers() const = 0;

@@ -34,21 +34,22 @@ class OpenNi2Device : public RgbdDevice {
     }
   }
 
-  std::optional<DeviceImage> next(double timeout_s) override {
+  bool await(double timeout_s) override {
     std::vector<openni::VideoStream*> videos;
     for (const auto& stream : streams_) videos.push_back(&stream->video());
-    int ready = -1;
-    const openni::Status status = openni::OpenNI::waitForAnyStream(videos.data(), static_cast<int>(videos.size()), &ready,
+    const openni::Status status = openni::OpenNI::waitForAnyStream(videos.data(), static_cast<int>(videos.size()), &ready_,
                                                                    static_cast<int>(1e3 * timeout_s));
     if (status == openni::STATUS_OK) {
       last_image_ = Clock::now();
-      return streams_[static_cast<size_t>(ready)]->read();
+      return true;
     }
     check(isPlugged(uri_), name_ + " was unplugged; plug it in again and it goes on");
     check(status == openni::STATUS_TIME_OUT, name_ + " gives no images: " + openNi2Error());
     check(Clock::now() - last_image_ < kMaxSilence, name_ + " sends nothing any more; it is opened anew");
-    return std::nullopt;
+    return false;
   }
+
+  DeviceImage read() override { return streams_[static_cast<size_t>(ready_)]->read(); }
 
   std::shared_ptr<FrameBuffers> buffers() const override { return buffers_; }
   std::string name() const override { return name_; }
@@ -111,6 +112,7 @@ class OpenNi2Device : public RgbdDevice {
   std::shared_ptr<FrameBuffers> buffers_ = std::make_shared<FrameBuffers>();
   openni::Device device_;
   std::vector<std::unique_ptr<OpenNi2Stream>> streams_;
+  int ready_ = 0;  // the stream that has an image
   bool registers_depth_ = false;
   std::vector<std::string> shortcomings_;
   Clock::time_point last_image_ = Clock::now();
