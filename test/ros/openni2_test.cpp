@@ -99,7 +99,7 @@ class OpenNi2 : public testing::Test {
     return diagnostics_.await([&](const DiagnosticArray& array) {
       if (++seen <= before) return false;
       return std::any_of(array.status.begin(), array.status.end(), [&](const DiagnosticStatus& status) {
-        return status.name.find(graph_.resolve("acquisition")) != std::string::npos && status.level == level &&
+        return status.name.find(graph_.resolve("acquisition").substr(1)) != std::string::npos && status.level == level &&
                status.message.find(words) != std::string::npos;
       });
     }) != nullptr;

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <thread>
 
+#include "acquisition/openni2/openni2_thread.h"
+#include "acquisition/openni2/runtime.h"
 #include "depth_fusion/acquisition/rgbd_device.h"
 #include "depth_fusion/recording/recording_writer.h"
 #include "openni2/driver/control.h"
@@ -49,9 +51,10 @@ class TestDevice {
 
   // The whole recording from its first frame on, by OpenNI2's own recorder.
   void recordOni(const std::string& path, int frames) {
-    ASSERT_EQ(openni::OpenNI::initialize(), openni::STATUS_OK);
-    record(path, frames);
-    openni::OpenNI::shutdown();
+    inOpenNi2Thread([&] {
+      const OpenNi2Runtime runtime;
+      record(path, frames);
+    });
   }
 
  private:

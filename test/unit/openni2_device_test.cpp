@@ -178,6 +178,16 @@ TEST_F(OpenNi2Device, TakesExposureAndWhiteBalance) {
 // The recorder's compression of depth changes a few pixels by millimetres.
 int wrongPixels(const cv::Mat& a, const cv::Mat& b) { return cv::countNonZero(a != b); }
 
+// OpenNI2 remembers every thread that has ever called it.
+TEST_F(OpenNi2Device, CallersMayEnd) {
+  for (int i = 0; i < 20; ++i) {
+    std::thread([&] { EXPECT_TRUE(openDevice(device_.parameters())->await(10.0)); }).join();
+    std::vector<std::thread> others;  // take over its stack
+    for (int k = 0; k < 4; ++k) others.emplace_back([] {});
+    for (std::thread& other : others) other.join();
+  }
+}
+
 TEST_F(OpenNi2Device, AnOniFileGivesEveryFrameInOrder) {
   const TemporaryFolder folder;
   const std::string path = folder / "room.oni";
@@ -201,6 +211,16 @@ TEST_F(OpenNi2Device, AnOniFileGivesEveryFrameInOrder) {
     EXPECT_EQ(shown, frames_.size() - 1);
     EXPECT_EQ(count, recording->frameCount());
     EXPECT_GE(colored + 1, count) << "the recorder may stop between depth and colour";
+  }
+}
+
+TEST_F(OpenNi2Device, AnOniFileMayBeLeftInTheMiddle) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "room.oni";
+  device_.recordOni(path, kFrames);
+  for (int frames = 0; frames < 8; ++frames) {
+    const auto recording = openOni(path, {});
+    for (int i = 0; i < frames; ++i) EXPECT_TRUE(recording->next());
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "acquisition/openni2/openni2_thread.h"
 #include "acquisition/openni2/runtime.h"
 #include "acquisition/openni2/stream.h"
 #include "depth_fusion/acquisition/rgbd_device.h"
@@ -13,6 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kMaxSilence{5};
+constexpr double kSlice_s = 0.005;
 
 class OpenNi2Device : public RgbdDevice {
  public:
@@ -118,12 +120,47 @@ class OpenNi2Device : public RgbdDevice {
   Clock::time_point last_image_ = Clock::now();
 };
 
+// The same for callers in any thread.
+class DeviceInOneThread : public RgbdDevice {
+ public:
+  explicit DeviceInOneThread(const DeviceParameters& parameters)
+      : device_(inOpenNi2Thread([&] { return std::make_unique<OpenNi2Device>(parameters); })) {}
+  ~DeviceInOneThread() override {
+    inOpenNi2Thread([this] { device_.reset(); });
+  }
+
+  // In slices, for other devices have the same thread.
+  bool await(double timeout_s) override {
+    for (const auto end = Clock::now() + std::chrono::duration<double>(timeout_s); Clock::now() < end;) {
+      if (inOpenNi2Thread([this] { return device_->await(kSlice_s); })) return true;
+    }
+    return false;
+  }
+  DeviceImage read() override {
+    return inOpenNi2Thread([this] { return device_->read(); });
+  }
+  double fieldOfView_rad(ImageStream kind) const override {
+    return inOpenNi2Thread([&] { return device_->fieldOfView_rad(kind); });
+  }
+  void apply(const CameraSettings& settings) override {
+    inOpenNi2Thread([&] { device_->apply(settings); });
+  }
+  std::shared_ptr<FrameBuffers> buffers() const override { return device_->buffers(); }
+  std::string name() const override { return device_->name(); }
+  std::string serial() const override { return device_->serial(); }
+  bool registersDepth() const override { return device_->registersDepth(); }
+  std::vector<std::string> shortcomings() const override { return device_->shortcomings(); }
+
+ private:
+  std::unique_ptr<OpenNi2Device> device_;
+};
+
 }  // namespace
 
 void requireDevices() {}
 
 std::unique_ptr<RgbdDevice> openDevice(const DeviceParameters& parameters) {
-  return std::make_unique<OpenNi2Device>(parameters);
+  return std::make_unique<DeviceInOneThread>(parameters);
 }
 
 }  // namespace depth_fusion

@@ -2,12 +2,15 @@
 #include <OpenNI.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 
 #include "acquisition/field_of_view.h"
+#include "acquisition/openni2/openni2_thread.h"
 #include "acquisition/openni2/runtime.h"
 #include "acquisition/openni2/stream.h"
 #include "depth_fusion/acquisition/oni_recording.h"
@@ -18,6 +21,7 @@ namespace depth_fusion {
 namespace {
 
 constexpr int kMaxWait_ms = 5000;
+constexpr std::chrono::milliseconds kCallbackBegins{20};  // from the player's look whether a stream runs to its memory
 
 // OpenNI2 keeps a stream's newest frame only; this holds the player back until the one before has been read.
 class OneAtATime : public BufferAllocator {
@@ -28,17 +32,33 @@ class OneAtATime : public BufferAllocator {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return !unread_ || closing_; });
     unread_ = true;
+    ++in_use_;
     return BufferAllocator::allocateFrameBuffer(size);
   }
 
-  void noteRead() { change(unread_, false); }
-  void close() { change(closing_, true); }
+  void freeFrameBuffer(void* data) override {
+    BufferAllocator::freeFrameBuffer(data);
+    change([this] { --in_use_; });
+  }
+
+  void noteRead() {
+    change([this] { unread_ = false; });
+  }
+  void close() {
+    change([this] { closing_ = true; });
+  }
+  // Until OpenNI2 has no frame of the stream any more; not for ever.
+  void awaitUnused() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait_for(lock, std::chrono::milliseconds(kMaxWait_ms), [this] { return in_use_ == 0; });
+  }
 
  private:
-  void change(bool& flag, bool value) {
+  template <class Change>
+  void change(const Change& make) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      flag = value;
+      make();
     }
     changed_.notify_all();
   }
@@ -47,6 +67,7 @@ class OneAtATime : public BufferAllocator {
   std::condition_variable changed_;
   bool unread_ = false;
   bool closing_ = false;
+  int in_use_ = 0;
 };
 
 cv::Mat toMat(DeviceImage& image, int type) { return {image.height, image.width, type, image.pixels.data(), image.step}; }
@@ -77,9 +98,11 @@ class OniRecording : public Recording {
     if (color_) color_->stream.start();
   }
 
+  // OpenNI2's player may be at work on a frame, or held back; its stream must not go before it is done.
   ~OniRecording() override {
-    depth_->pace->close();
-    if (color_) color_->pace->close();
+    for (Track* track : {depth_.get(), color_.get()}) {
+      if (track != nullptr) track->stop();
+    }
   }
 
   std::optional<RgbdFrame> next() override {
@@ -120,6 +143,13 @@ class OniRecording : public Recording {
       return cameraFromFieldOfView(size().width, size().height, stream.video().getHorizontalFieldOfView());
     }
     bool atEnd() const { return read == count; }
+    void stop() {
+      pace->close();
+      stream.video().stop();
+      std::this_thread::sleep_for(kCallbackBegins);
+      stream.video().stop();  // forgets a frame that has come meanwhile
+      pace->awaitUnused();
+    }
 
     OneAtATime* pace;  // the stream's
     OpenNi2Stream stream;
@@ -177,10 +207,29 @@ class OniRecording : public Recording {
   bool ended_ = false;
 };
 
+// The same for callers in any thread.
+class RecordingInOneThread : public Recording {
+ public:
+  RecordingInOneThread(const std::string& path, const RecordingOptions& options)
+      : recording_(inOpenNi2Thread([&] { return std::make_unique<OniRecording>(path, options); })) {}
+  ~RecordingInOneThread() override {
+    inOpenNi2Thread([this] { recording_.reset(); });
+  }
+
+  std::optional<RgbdFrame> next() override {
+    return inOpenNi2Thread([this] { return recording_->next(); });
+  }
+  size_t frameCount() const override { return recording_->frameCount(); }
+  std::string description() const override { return recording_->description(); }
+
+ private:
+  std::unique_ptr<OniRecording> recording_;
+};
+
 }  // namespace
 
 std::unique_ptr<Recording> openOni(const std::string& path, const RecordingOptions& options) {
-  return std::make_unique<OniRecording>(path, options);
+  return std::make_unique<RecordingInOneThread>(path, options);
 }
 
 }  // namespace depth_fusion

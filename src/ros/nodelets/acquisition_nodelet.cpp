@@ -46,14 +46,14 @@ void AcquisitionNodelet::applyParameters() {
 }
 
 std::unique_ptr<FrameSource> AcquisitionNodelet::makeSource() {
-  std::string& recording = player_parameters_.recording;
-  std::string& device_id = device_parameters_.device.device_id;
-  check(recording.empty() != device_id.empty(),
+  const std::string& device_id = device_parameters_.device.device_id;
+  PlayerParameters player = player_parameters_;
+  check(player.recording.empty() != device_id.empty(),
         "give the parameter recording (a file or folder) or device_id (a camera; #1 is the first), and not both");
-  if (endsWith(device_id, ".oni")) recording.swap(device_id);
+  if (endsWith(device_id, ".oni")) player.recording = device_id;
   const SourceHost host{getMTNodeHandle(), getName(), counter_,
                         [this](const StageTimers& timers) { recordTimings(timers); }};
-  if (!recording.empty()) return std::make_unique<RecordingPlayer>(host, player_parameters_);
+  if (!player.recording.empty()) return std::make_unique<RecordingPlayer>(host, player);
   return std::make_unique<DevicePublisher>(host, device_parameters_);
 }
 
