@@ -3,11 +3,12 @@
 
 namespace depth_fusion {
 
-// Images come late by what their way takes, now more, now less; the quickest of the last few hundred says how the clocks differ.
+// Images come late by what their way takes, now more, now less; the quickest of the last few hundred says how
+// the clocks differ.
 class DeviceClock {
  public:
-  // The host's time, in seconds, of an image that the device stamped device_s and that has come at host_s. Where either clock was
-  // set anew, it begins anew.
+  // The host's time, in seconds, of an image that the device stamped device_s and that has come at host_s.
+  // Where either clock was set anew, it begins anew.
   double toHost(double device_s, double host_s);
 
  private:

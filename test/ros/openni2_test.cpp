@@ -1,4 +1,5 @@
-// A camera and an .oni file through OpenNI2 itself, from the driver to the map; and what goes wrong with cameras.
+// A camera and an .oni file through OpenNI2 itself, from the driver to the map; and what goes wrong with
+// cameras.
 #include <depth_fusion/ExportMesh.h>
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <dynamic_reconfigure/Reconfigure.h>
@@ -54,7 +55,8 @@ Eigen::AlignedBox3f boundsOf(const TriangleMesh& mesh) {
   return box;
 }
 
-// What the same frames make offline, in the frame of the first, as a bag does bit for bit (see lossless_test).
+// What the same frames make offline, in the frame of the first, as a bag does bit for bit (see
+// lossless_test).
 Eigen::AlignedBox3f boundsOfBag() {
   ComputeContext compute;
   ReconstructionPipeline pipeline(compute, PipelineParameters(), roomFrames().front().intrinsics);
@@ -99,8 +101,8 @@ class OpenNi2 : public testing::Test {
     return diagnostics_.await([&](const DiagnosticArray& array) {
       if (++seen <= before) return false;
       return std::any_of(array.status.begin(), array.status.end(), [&](const DiagnosticStatus& status) {
-        return status.name.find(graph_.resolve("acquisition").substr(1)) != std::string::npos && status.level == level &&
-               status.message.find(words) != std::string::npos;
+        return status.name.find(graph_.resolve("acquisition").substr(1)) != std::string::npos &&
+               status.level == level && status.message.find(words) != std::string::npos;
       });
     }) != nullptr;
   }
@@ -112,7 +114,8 @@ class OpenNi2 : public testing::Test {
       return std::memcmp(i.data.data(), pixels.data, pixels.total() * pixels.elemSize()) == 0;
     });
     if (image == nullptr) return nullptr;
-    return poses_.await([&](const PoseWithCovarianceStamped& pose) { return pose.header.stamp >= image->header.stamp; });
+    return poses_.await(
+        [&](const PoseWithCovarianceStamped& pose) { return pose.header.stamp >= image->header.stamp; });
   }
 
   void moveTo(int frame) {
@@ -121,7 +124,8 @@ class OpenNi2 : public testing::Test {
   }
 
   void expectMotion(const Pose& first, const Pose& last, int last_frame) {
-    const Pose truth = roomFrames().front().T_W_D->inverse() * *roomFrames()[static_cast<size_t>(last_frame)].T_W_D;
+    const Pose truth =
+        roomFrames().front().T_W_D->inverse() * *roomFrames()[static_cast<size_t>(last_frame)].T_W_D;
     const Pose error = truth.inverse() * first.inverse() * last;
     EXPECT_LT(error.translation().norm(), kMaxOffset_m);
     EXPECT_LT(rotationAngle(error), kMaxTurn_rad);
@@ -174,6 +178,7 @@ TEST_F(OpenNi2, ACameraBecomesTheMapOfABag) {
 TEST_F(OpenNi2, AnOniFileBecomesTheMapOfABag) {
   const TemporaryFolder folder;
   device_.control.fps = 30.0;
+  device_.apply();
   device_.recordOni(folder / "room.oni", kFrames);
   set("device_id", folder / "room.oni");
   set("lossless", true);
@@ -242,7 +247,8 @@ TEST_F(OpenNi2, DroppedFramesAreCountedAndBridged) {
       }
     }
     return false;
-  }), nullptr);
+  }),
+            nullptr);
 }
 
 TEST_F(OpenNi2, WithoutRegistrationDepthHasItsOwnFrameAndAWarning) {
@@ -284,7 +290,8 @@ TEST_F(OpenNi2, PublishesTheMemoryThatTheDriverWroteTo) {
   device_.control.writes_addresses = true;
   device_.apply();
   set("ir_mode", device_.mode());
-  Listener<Image> depth(graph_.handle(), "depth/image"), color(graph_.handle(), "rgb/image"), ir(graph_.handle(), "ir/image");
+  Listener<Image> depth(graph_.handle(), "depth/image"), color(graph_.handle(), "rgb/image"),
+      ir(graph_.handle(), "ir/image");
   ASSERT_TRUE(graph_.load("acquisition"));
   for (Listener<Image>* images : {&depth, &color, &ir}) {
     ASSERT_TRUE(images->awaitCount(5));
@@ -307,10 +314,12 @@ TEST_F(OpenNi2, StampsGoByTheCamerasClock) {
   EXPECT_LT(depth.all()[40]->header.stamp.toSec(), ros::Time::now().toSec() + 0.5);
   int regular = 0, paired = 0;
   for (size_t i = 0; i < 40; ++i) {
-    const double stamp_s = depth.all()[i]->header.stamp.toSec(), next_s = depth.all()[i + 1]->header.stamp.toSec();
+    const double stamp_s = depth.all()[i]->header.stamp.toSec(),
+                 next_s = depth.all()[i + 1]->header.stamp.toSec();
     const double periods = (next_s - stamp_s) / 0.05;
     regular += std::abs(periods - std::round(periods)) < 0.02 ? 1 : 0;
-    for (const auto& image : color.all()) paired += std::abs(image->header.stamp.toSec() + 0.5 - stamp_s) < 0.001 ? 1 : 0;
+    for (const auto& image : color.all())
+      paired += std::abs(image->header.stamp.toSec() + 0.5 - stamp_s) < 0.001 ? 1 : 0;
   }
   EXPECT_GE(regular, 30) << "whatever the delays of this machine";
   EXPECT_GE(paired, 30);
@@ -330,7 +339,8 @@ TEST_F(OpenNi2, CameraInfoIsTheCalibrationOrTheFieldOfView) {
     EXPECT_NEAR(info->K[5], 119.5, 1e-9);
     EXPECT_EQ(info->D[0], 0.0);
   }
-  ros::ServiceClient client = graph_.handle().serviceClient<sensor_msgs::SetCameraInfo>("rgb/set_camera_info");
+  ros::ServiceClient client =
+      graph_.handle().serviceClient<sensor_msgs::SetCameraInfo>("rgb/set_camera_info");
   sensor_msgs::SetCameraInfo request;
   request.request.camera_info = calibration;
   ASSERT_TRUE(client.call(request));
@@ -350,7 +360,9 @@ TEST_F(OpenNi2, ExposureChangesWhileItRuns) {
   change.request.config.ints.resize(1);
   change.request.config.ints[0].name = "exposure";
   change.request.config.ints[0].value = 40;
-  ASSERT_TRUE(graph_.handle().serviceClient<dynamic_reconfigure::Reconfigure>("acquisition/set_parameters").call(change));
+  ASSERT_TRUE(graph_.handle()
+                  .serviceClient<dynamic_reconfigure::Reconfigure>("acquisition/set_parameters")
+                  .call(change));
   EXPECT_TRUE(eventually([&] { return device_.settings() == "0 1 40 0"; }));
 }
 

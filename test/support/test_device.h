@@ -49,7 +49,8 @@ class TestDevice {
     return line;
   }
 
-  // The whole recording from its first frame on, by OpenNI2's own recorder.
+  // The whole recording from its first frame on, by OpenNI2's own recorder; once a process, for its thread
+  // calls OpenNI2 and ends (see inOpenNi2Thread).
   void recordOni(const std::string& path, int frames) {
     inOpenNi2Thread([&] {
       const OpenNi2Runtime runtime;

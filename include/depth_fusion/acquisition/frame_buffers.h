@@ -1,4 +1,5 @@
-// The memory that a driver writes images into: it goes out with the image as it is, and comes back when nobody reads it any more.
+// The memory that a driver writes images into: it goes out with the image as it is, and comes back when
+// nobody reads it any more.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,8 @@ class FrameBuffers {
   // The driver has done with it.
   void release(const uint8_t* data);
 
-  // The bytes at this address, for the reader, who may keep them; nothing if the address is not of allocate().
+  // The bytes at this address, for the reader, who may keep them; nothing if the address is not of
+  // allocate().
   std::optional<std::vector<uint8_t>> take(const uint8_t* data);
   // The reader has done with them.
   void recycle(std::vector<uint8_t> bytes);
@@ -29,7 +31,8 @@ class FrameBuffers {
 
   std::mutex mutex_;
   std::set<const uint8_t*> with_driver_;
-  std::map<const uint8_t*, std::vector<uint8_t>> unread_;  // with the driver, and not or no longer with a reader
+  std::map<const uint8_t*, std::vector<uint8_t>>
+      unread_;  // with the driver, and not or no longer with a reader
   std::vector<std::vector<uint8_t>> idle_;
 };
 

@@ -48,8 +48,8 @@ class RgbdDevice {
  public:
   virtual ~RgbdDevice() = default;
 
-  // Until there is an image, of any stream; false after the given time. Throws Error if the device is unplugged or has fallen
-  // silent; it is then of no more use.
+  // Until there is an image, of any stream; false after the given time. Throws Error if the device is
+  // unplugged or has fallen silent; it is then of no more use.
   virtual bool await(double timeout_s) = 0;
   // The image that await() has found.
   virtual DeviceImage read() = 0;
@@ -75,8 +75,8 @@ class RgbdDevice {
 // Throws Error, saying what to install, if this build has no OpenNI2.
 void requireDevices();
 
-// By URI, serial number, "#n" (the n-th, from 1), "bus@n" (the USB address; n = 0: any on the bus) or "" (the first). Throws Error
-// naming the devices that there are, or the modes of the device, if there is none such.
+// By URI, serial number, "#n" (the n-th, from 1), "bus@n" (the USB address; n = 0: any on the bus) or "" (the
+// first). Throws Error naming the devices that there are, or the modes of the device, if there is none such.
 std::unique_ptr<RgbdDevice> openDevice(const DeviceParameters& parameters);
 
 }  // namespace depth_fusion

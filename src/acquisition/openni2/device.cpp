@@ -39,8 +39,8 @@ class OpenNi2Device : public RgbdDevice {
   bool await(double timeout_s) override {
     std::vector<openni::VideoStream*> videos;
     for (const auto& stream : streams_) videos.push_back(&stream->video());
-    const openni::Status status = openni::OpenNI::waitForAnyStream(videos.data(), static_cast<int>(videos.size()), &ready_,
-                                                                   static_cast<int>(1e3 * timeout_s));
+    const openni::Status status = openni::OpenNI::waitForAnyStream(
+        videos.data(), static_cast<int>(videos.size()), &ready_, static_cast<int>(1e3 * timeout_s));
     if (status == openni::STATUS_OK) {
       last_image_ = Clock::now();
       return true;
@@ -104,7 +104,8 @@ class OpenNi2Device : public RgbdDevice {
     set(camera->setAutoExposureEnabled(settings.auto_exposure), "auto_exposure");
     set(camera->setAutoWhiteBalanceEnabled(settings.auto_white_balance), "auto_white_balance");
     if (settings.auto_exposure) return;
-    if (settings.exposure > 0) set(camera->setExposure(settings.exposure), "exposure " + std::to_string(settings.exposure));
+    if (settings.exposure > 0)
+      set(camera->setExposure(settings.exposure), "exposure " + std::to_string(settings.exposure));
     if (settings.gain > 0) set(camera->setGain(settings.gain), "gain " + std::to_string(settings.gain));
   }
 

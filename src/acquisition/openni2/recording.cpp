@@ -21,7 +21,8 @@ namespace depth_fusion {
 namespace {
 
 constexpr int kMaxWait_ms = 5000;
-constexpr std::chrono::milliseconds kCallbackBegins{20};  // from the player's look whether a stream runs to its memory
+constexpr std::chrono::milliseconds kCallbackBegins{
+    20};  // from the player's look whether a stream runs to its memory
 
 // OpenNI2 keeps a stream's newest frame only; this holds the player back until the one before has been read.
 class OneAtATime : public BufferAllocator {
@@ -70,7 +71,9 @@ class OneAtATime : public BufferAllocator {
   int in_use_ = 0;
 };
 
-cv::Mat toMat(DeviceImage& image, int type) { return {image.height, image.width, type, image.pixels.data(), image.step}; }
+cv::Mat toMat(DeviceImage& image, int type) {
+  return {image.height, image.width, type, image.pixels.data(), image.step};
+}
 
 cv::Mat colorOf(DeviceImage& image) {
   if (image.encoding == "mono8") return toMat(image, CV_8UC1).clone();
@@ -86,13 +89,16 @@ class OniRecording : public Recording {
     check(device_.open(path.c_str()) == openni::STATUS_OK && device_.isFile(),
           path + ": OpenNI2 cannot read it: " + openNi2Error());
     openni::PlaybackControl& playback = *device_.getPlaybackControl();
-    check(playback.setRepeatEnabled(false) == openni::STATUS_OK && playback.setSpeed(0.0f) == openni::STATUS_OK,
-          path + ": OpenNI2 cannot play it frame by frame: " + openNi2Error());
+    check(
+        playback.setRepeatEnabled(false) == openni::STATUS_OK && playback.setSpeed(0.0f) == openni::STATUS_OK,
+        path + ": OpenNI2 cannot play it frame by frame: " + openNi2Error());
     depth_ = std::make_unique<Track>(device_, ImageStream::kDepth, path);
-    if (device_.hasSensor(openni::SENSOR_COLOR)) color_ = std::make_unique<Track>(device_, ImageStream::kColor, path);
+    if (device_.hasSensor(openni::SENSOR_COLOR))
+      color_ = std::make_unique<Track>(device_, ImageStream::kColor, path);
     const CameraIntrinsics own = (color_ ? *color_ : *depth_).camera();
     const cv::Size size = depth_->size();
-    intrinsics_ = chooseIntrinsics(options.intrinsics, RecordingIntrinsics{scaled(own, size), "of its field of view"}, size, path);
+    intrinsics_ = chooseIntrinsics(
+        options.intrinsics, RecordingIntrinsics{scaled(own, size), "of its field of view"}, size, path);
     if (color_ && color_->size() != size) color_intrinsics_ = own;
     depth_->stream.start();
     if (color_) color_->stream.start();
@@ -110,6 +116,10 @@ class OniRecording : public Recording {
     if (depth_->images.empty()) return std::nullopt;
     DeviceImage depth = std::move(depth_->images.front());
     depth_->images.pop_front();
+    check(depth.device_time_s > last_stamp_s_, path_ + ": a depth image of " +
+                                                   std::to_string(depth.device_time_s) +
+                                                   " s is not later than the one before it; it is left out");
+    last_stamp_s_ = depth.device_time_s;
     RgbdFrame frame;
     frame.stamp_s = depth.device_time_s;
     frame.depth = toMat(depth, CV_16UC1).clone();
@@ -133,7 +143,8 @@ class OniRecording : public Recording {
     Track(openni::Device& device, ImageStream kind, const std::string& path)
         : pace(new OneAtATime),
           stream(device, kind, std::nullopt, path, std::unique_ptr<BufferAllocator>(pace)),
-          count(static_cast<size_t>(std::max(0, device.getPlaybackControl()->getNumberOfFrames(stream.video())))) {}
+          count(static_cast<size_t>(
+              std::max(0, device.getPlaybackControl()->getNumberOfFrames(stream.video())))) {}
 
     cv::Size size() const {
       const openni::VideoMode mode = stream.video().getVideoMode();
@@ -161,13 +172,19 @@ class OniRecording : public Recording {
   // The same view in another size.
   static CameraIntrinsics scaled(const CameraIntrinsics& camera, cv::Size size) {
     const double factor = static_cast<double>(size.width) / camera.width;
-    return {size.width, size.height, factor * camera.fx, factor * camera.fy, 0.5 * (size.width - 1), 0.5 * (size.height - 1)};
+    return {size.width,
+            size.height,
+            factor * camera.fx,
+            factor * camera.fy,
+            0.5 * (size.width - 1),
+            0.5 * (size.height - 1)};
   }
 
   bool firstDepthIsReady() const {
     if (depth_->images.empty()) return false;
     if (!color_ || color_->atEnd()) return true;
-    return !color_->images.empty() && color_->images.back().device_time_s >= depth_->images.front().device_time_s;
+    return !color_->images.empty() &&
+           color_->images.back().device_time_s >= depth_->images.front().device_time_s;
   }
 
   void readAhead() {
@@ -204,6 +221,7 @@ class OniRecording : public Recording {
   std::unique_ptr<Track> depth_, color_;
   RecordingIntrinsics intrinsics_;
   std::optional<CameraIntrinsics> color_intrinsics_;
+  double last_stamp_s_ = -1.0;
   bool ended_ = false;
 };
 

@@ -36,7 +36,8 @@ std::string serialAt(const std::string& uri) {
 
 std::string describe(const std::vector<Entry>& entries) {
   if (entries.empty())
-    return "OpenNI2 sees none: plug one in; if one is plugged in, see that its user may open it (udev rules of libopenni2-0)";
+    return "OpenNI2 sees none: plug one in; if one is plugged in, see that its user may open it (udev rules "
+           "of libopenni2-0)";
   std::string text = "there are";
   for (size_t i = 0; i < entries.size(); ++i) {
     const std::string serial = serialAt(entries[i].uri);
@@ -102,7 +103,8 @@ std::string findDevice(const std::string& device_id) {
 std::string serialOf(openni::Device& device) {
   char serial[256] = {};
   int size = sizeof(serial) - 1;
-  if (device.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial, &size) != openni::STATUS_OK) return {};
+  if (device.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial, &size) != openni::STATUS_OK)
+    return {};
   return serial;
 }
 

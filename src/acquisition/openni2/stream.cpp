@@ -35,10 +35,13 @@ const Format* findFormat(ImageStream stream, openni::PixelFormat pixels) {
   return found == std::end(kFormats) ? nullptr : found;
 }
 
-VideoMode modeOf(const openni::VideoMode& mode) { return {mode.getResolutionX(), mode.getResolutionY(), mode.getFps()}; }
+VideoMode modeOf(const openni::VideoMode& mode) {
+  return {mode.getResolutionX(), mode.getResolutionY(), mode.getFps()};
+}
 
 bool fits(const VideoMode& asked, const VideoMode& mode) {
-  return asked.width == mode.width && asked.height == mode.height && (asked.fps == 0 || asked.fps == mode.fps);
+  return asked.width == mode.width && asked.height == mode.height &&
+         (asked.fps == 0 || asked.fps == mode.fps);
 }
 
 // Those whose pixels can be read, the best format first.
@@ -86,8 +89,9 @@ OpenNi2Stream::OpenNi2Stream(openni::Device& device, ImageStream stream, const s
                              const std::string& device_name, std::unique_ptr<BufferAllocator> allocator)
     : kind_(stream), device_name_(device_name), allocator_(std::move(allocator)) {
   const std::string what = streamName(kind_);
-  check(device.getSensorInfo(sensorOf(kind_)) != nullptr, device_name_ + " has no " + what + " images" +
-                                                              (kind_ == ImageStream::kDepth ? "" : "; set " + what + "_mode to off"));
+  check(device.getSensorInfo(sensorOf(kind_)) != nullptr,
+        device_name_ + " has no " + what + " images" +
+            (kind_ == ImageStream::kDepth ? "" : "; set " + what + "_mode to off"));
   check(video_.create(device, sensorOf(kind_)) == openni::STATUS_OK,
         device_name_ + ": the " + what + " stream cannot be opened: " + openNi2Error());
   if (mode) setMode(device, *mode);
@@ -104,12 +108,14 @@ OpenNi2Stream::~OpenNi2Stream() {
 
 void OpenNi2Stream::setMode(openni::Device& device, const VideoMode& mode) {
   const auto modes = readableModes(*device.getSensorInfo(sensorOf(kind_)), kind_);
-  const auto wanted = std::find_if(modes.begin(), modes.end(), [&](const auto& m) { return fits(mode, modeOf(m)); });
+  const auto wanted =
+      std::find_if(modes.begin(), modes.end(), [&](const auto& m) { return fits(mode, modeOf(m)); });
   const std::string parameter = streamName(kind_) + "_mode";
   check(wanted != modes.end(), device_name_ + " has no " + parameter + " " + videoModeText(mode) +
                                    "; set it to one of these: " + listOf(modes));
-  check(video_.setVideoMode(*wanted) == openni::STATUS_OK,
-        device_name_ + " refuses " + parameter + " " + videoModeText(modeOf(*wanted)) + ": " + openNi2Error());
+  check(
+      video_.setVideoMode(*wanted) == openni::STATUS_OK,
+      device_name_ + " refuses " + parameter + " " + videoModeText(modeOf(*wanted)) + ": " + openNi2Error());
 }
 
 void OpenNi2Stream::start() {
@@ -122,7 +128,8 @@ DeviceImage OpenNi2Stream::read() {
   check(video_.readFrame(&frame) == openni::STATUS_OK,
         device_name_ + ": a " + streamName(kind_) + " image cannot be read: " + openNi2Error());
   const Format* format = findFormat(kind_, frame.getVideoMode().getPixelFormat());
-  check(format != nullptr, device_name_ + ": the " + streamName(kind_) + " images have a pixel format that is not known here");
+  check(format != nullptr,
+        device_name_ + ": the " + streamName(kind_) + " images have a pixel format that is not known here");
   DeviceImage image;
   image.stream = kind_;
   image.width = frame.getWidth();
@@ -136,7 +143,8 @@ DeviceImage OpenNi2Stream::read() {
 
   const auto* data = static_cast<const uint8_t*>(frame.getData());
   const size_t size = image.step * static_cast<size_t>(image.height);
-  check(frame.getDataSize() >= static_cast<int>(size), device_name_ + ": a " + streamName(kind_) + " image is cut short");
+  check(frame.getDataSize() >= static_cast<int>(size),
+        device_name_ + ": a " + streamName(kind_) + " image is cut short");
   auto own = allocator_->buffers().take(data);
   image.pixels = own ? std::move(*own) : std::vector<uint8_t>(data, data + size);
   image.pixels.resize(size);

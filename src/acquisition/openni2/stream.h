@@ -12,7 +12,8 @@
 
 namespace depth_fusion {
 
-// Lets OpenNI2 write into FrameBuffers. It is called in the driver's thread, as long as OpenNI2 has a frame of the stream.
+// Lets OpenNI2 write into FrameBuffers. It is called in the driver's thread, as long as OpenNI2 has a frame
+// of the stream.
 class BufferAllocator : public openni::VideoStream::FrameAllocator {
  public:
   explicit BufferAllocator(std::shared_ptr<FrameBuffers> buffers) : buffers_(std::move(buffers)) {}
@@ -30,8 +31,8 @@ openni::SensorType sensorOf(ImageStream stream);
 
 class OpenNi2Stream {
  public:
-  // In the mode that it has, unless one is given. `device_name` begins the messages of Errors: of a stream or a mode that the
-  // device lacks, naming those that it has.
+  // In the mode that it has, unless one is given. `device_name` begins the messages of Errors: of a stream or
+  // a mode that the device lacks, naming those that it has.
   OpenNi2Stream(openni::Device& device, ImageStream stream, const std::optional<VideoMode>& mode,
                 const std::string& device_name, std::unique_ptr<BufferAllocator> allocator);
   ~OpenNi2Stream();

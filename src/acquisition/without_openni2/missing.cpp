@@ -7,7 +7,8 @@ namespace depth_fusion {
 
 void requireDevices() {
   throw Error(
-      "this build has no OpenNI2, which reads cameras and .oni files: install libopenni2-dev and build again, or "
+      "this build has no OpenNI2, which reads cameras and .oni files: install libopenni2-dev and build "
+      "again, or "
       "start the camera's own driver and reconstruction.launch");
 }
 

@@ -1,6 +1,5 @@
 // Acquisition: publishes the frames of a recording or of a camera.
 #include <pluginlib/class_list_macros.hpp>
-
 #include <thread>
 
 #include "ros/nodelets/device_publisher.h"
@@ -49,7 +48,8 @@ std::unique_ptr<FrameSource> AcquisitionNodelet::makeSource() {
   const std::string& device_id = device_parameters_.device.device_id;
   PlayerParameters player = player_parameters_;
   check(player.recording.empty() != device_id.empty(),
-        "give the parameter recording (a file or folder) or device_id (a camera; #1 is the first), and not both");
+        "give the parameter recording (a file or folder) or device_id (a camera; #1 is the first), and not "
+        "both");
   if (endsWith(device_id, ".oni")) player.recording = device_id;
   const SourceHost host{getMTNodeHandle(), getName(), counter_,
                         [this](const StageTimers& timers) { recordTimings(timers); }};

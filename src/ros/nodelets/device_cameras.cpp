@@ -9,20 +9,24 @@
 namespace depth_fusion {
 namespace {
 
-sensor_msgs::CameraInfo infoOf(camera_info_manager::CameraInfoManager& manager, int width, int height, double angle_rad) {
+sensor_msgs::CameraInfo infoOf(camera_info_manager::CameraInfoManager& manager, int width, int height,
+                               double angle_rad) {
   if (manager.isCalibrated()) {
     const sensor_msgs::CameraInfo info = manager.getCameraInfo();
     if (static_cast<int>(info.width) == width && static_cast<int>(info.height) == height) return info;
-    ROS_WARN_STREAM_ONCE("the calibration of the camera is for " << info.width << "x" << info.height << ", the images are "
-                                                                 << width << "x" << height << "; it is not used");
+    ROS_WARN_STREAM_ONCE("the calibration of the camera is for "
+                         << info.width << "x" << info.height << ", the images are " << width << "x" << height
+                         << "; it is not used");
   }
   return makeCameraInfo({}, cameraFromFieldOfView(width, height, angle_rad));
 }
 
 }  // namespace
 
-DeviceCameras::DeviceCameras(const ros::NodeHandle& handle, const std::string& rgb_url, const std::string& depth_url)
-    : color_(ros::NodeHandle(handle, "rgb"), "rgb", rgb_url), depth_(ros::NodeHandle(handle, "depth"), "depth", depth_url) {}
+DeviceCameras::DeviceCameras(const ros::NodeHandle& handle, const std::string& rgb_url,
+                             const std::string& depth_url)
+    : color_(ros::NodeHandle(handle, "rgb"), "rgb", rgb_url),
+      depth_(ros::NodeHandle(handle, "depth"), "depth", depth_url) {}
 
 void DeviceCameras::setDevice(const std::string& serial) {
   std::string name = serial;

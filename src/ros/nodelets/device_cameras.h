@@ -9,7 +9,8 @@ namespace depth_fusion {
 
 class DeviceCameras {
  public:
-  // Serves rgb/set_camera_info and depth/set_camera_info. Empty URLs: ~/.ros/camera_info/{rgb,depth}_SERIAL.yaml.
+  // Serves rgb/set_camera_info and depth/set_camera_info. Empty URLs:
+  // ~/.ros/camera_info/{rgb,depth}_SERIAL.yaml.
   DeviceCameras(const ros::NodeHandle& handle, const std::string& rgb_url, const std::string& depth_url);
 
   // The calibrations are this device's.

@@ -17,11 +17,13 @@ constexpr int kManyInARow = 15;
 constexpr double kMillimetre_m = 0.001;
 
 // Around the pixels as they are; when the last reader has done with it, the device has them back.
-sensor_msgs::ImagePtr makeMessage(DeviceImage image, const std_msgs::Header& header, std::shared_ptr<FrameBuffers> buffers) {
-  const sensor_msgs::ImagePtr message(new sensor_msgs::Image, [buffers = std::move(buffers)](sensor_msgs::Image* done) {
-    buffers->recycle(std::move(done->data));
-    delete done;
-  });
+sensor_msgs::ImagePtr makeMessage(DeviceImage image, const std_msgs::Header& header,
+                                  std::shared_ptr<FrameBuffers> buffers) {
+  const sensor_msgs::ImagePtr message(new sensor_msgs::Image,
+                                      [buffers = std::move(buffers)](sensor_msgs::Image* done) {
+                                        buffers->recycle(std::move(done->data));
+                                        delete done;
+                                      });
   message->header = header;
   message->width = static_cast<uint32_t>(image.width);
   message->height = static_cast<uint32_t>(image.height);
@@ -40,18 +42,24 @@ sensor_msgs::ImagePtr inMetres(DeviceImage image, const std_msgs::Header& header
 }  // namespace
 
 ParameterTable DeviceTimeParameters::table() {
-  return {{"use_device_time", &use_device_time, 0, 1, "stamps by the camera's clock, set by the host's; false: the time of arrival"},
-          {"depth_time_offset", &depth_time_offset, -1.0, 1.0, "seconds added to the stamps of a camera's depth"},
-          {"color_time_offset", &color_time_offset, -1.0, 1.0, "seconds added to the stamps of a camera's colour"},
-          {"ir_time_offset", &ir_time_offset, -1.0, 1.0, "seconds added to the stamps of a camera's infrared"}};
+  return {
+      {"use_device_time", &use_device_time, 0, 1,
+       "stamps by the camera's clock, set by the host's; false: the time of arrival"},
+      {"depth_time_offset", &depth_time_offset, -1.0, 1.0, "seconds added to the stamps of a camera's depth"},
+      {"color_time_offset", &color_time_offset, -1.0, 1.0,
+       "seconds added to the stamps of a camera's colour"},
+      {"ir_time_offset", &ir_time_offset, -1.0, 1.0, "seconds added to the stamps of a camera's infrared"}};
 }
 
 ParameterTable DevicePublisherParameters::table() {
   ParameterTable rows = device.table();
   for (const ParameterTable& more :
-       {atStartOnly({{"rgb_frame_id", &rgb_frame_id, 0, 0, "optical frame of a camera's colour, and of depth registered to it"},
-                     {"depth_frame_id", &depth_frame_id, 0, 0, "optical frame of a camera's infrared, and of other depth"},
-                     {"rgb_camera_info_url", &rgb_camera_info_url, 0, 0, "calibration; empty: ~/.ros/camera_info/rgb_SERIAL.yaml"},
+       {atStartOnly({{"rgb_frame_id", &rgb_frame_id, 0, 0,
+                      "optical frame of a camera's colour, and of depth registered to it"},
+                     {"depth_frame_id", &depth_frame_id, 0, 0,
+                      "optical frame of a camera's infrared, and of other depth"},
+                     {"rgb_camera_info_url", &rgb_camera_info_url, 0, 0,
+                      "calibration; empty: ~/.ros/camera_info/rgb_SERIAL.yaml"},
                      {"depth_camera_info_url", &depth_camera_info_url, 0, 0, "the same: depth_SERIAL.yaml"}}),
         time.table()})
     rows.insert(rows.end(), more.begin(), more.end());
@@ -144,8 +152,8 @@ void DevicePublisher::publishNext() {
     const double stamp_s = stampOf(image);
     noteDelay(image.stream, stamp_s);
     const auto info = boost::make_shared<sensor_msgs::CameraInfo>(infoOf(image));
-    info->header = makeHeader(toRosTime(stamp_s),
-                              isSeenByColor(image.stream) ? parameters_.rgb_frame_id : parameters_.depth_frame_id);
+    info->header = makeHeader(toRosTime(stamp_s), isSeenByColor(image.stream) ? parameters_.rgb_frame_id
+                                                                              : parameters_.depth_frame_id);
     const Output& output = outputOf(image.stream);
     output.info.publish(info);
     const bool fits_ros = image.stream != ImageStream::kDepth || image.depth_unit_m == kMillimetre_m;
@@ -196,8 +204,9 @@ void DevicePublisher::showState() {
   const auto add = [&](const std::string& problem) { text += (text.empty() ? "" : "; ") + problem; };
   for (const std::string& shortcoming : device_->shortcomings()) add(shortcoming);
   if (color_is_late_)
-    add(device_->name() + " delivers colour too late for its depth: fusion goes on without colour; ask for fewer pixels with "
-                          "color_mode, or give color_depth_synchronization");
+    add(device_->name() +
+        " delivers colour too late for its depth: fusion goes on without colour; ask for fewer pixels with "
+        "color_mode, or give color_depth_synchronization");
   setState(text.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN, text);
 }
 
@@ -209,7 +218,8 @@ sensor_msgs::CameraInfo DevicePublisher::infoOf(const DeviceImage& image) {
   if (!isSeenByColor(image.stream))
     return cameras_.depthInfo(image.width, image.height, device_->fieldOfView_rad(ImageStream::kDepth));
   const double angle_rad = device_->fieldOfView_rad(ImageStream::kColor);
-  return cameras_.colorInfo(image.width, image.height, angle_rad > 0.0 ? angle_rad : device_->fieldOfView_rad(image.stream));
+  return cameras_.colorInfo(image.width, image.height,
+                            angle_rad > 0.0 ? angle_rad : device_->fieldOfView_rad(image.stream));
 }
 
 const DevicePublisher::Output& DevicePublisher::outputOf(ImageStream stream) const {

@@ -18,7 +18,8 @@ void FrameSource::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) 
 
 bool FrameSource::sleep(double seconds) {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait_for(lock, std::chrono::duration<double>(std::max(seconds, 0.0)), [this] { return stopping_; });
+  changed_.wait_for(lock, std::chrono::duration<double>(std::max(seconds, 0.0)),
+                    [this] { return stopping_; });
   return !stopping_;
 }
 

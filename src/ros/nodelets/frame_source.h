@@ -38,7 +38,8 @@ class FrameSource {
  protected:
   // False if stopping.
   bool sleep(double seconds);
-  // For the user, until the next one; nothing while all is well. Warnings and errors are logged, too, once each.
+  // For the user, until the next one; nothing while all is well. Warnings and errors are logged, too, once
+  // each.
   void setState(unsigned char level, const std::string& state);
   // Values for diagnostics; called with the mutex held.
   virtual void addValues(diagnostic_updater::DiagnosticStatusWrapper&) {}

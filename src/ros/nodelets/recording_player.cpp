@@ -22,7 +22,8 @@ constexpr size_t kMaxLatencies = 100000;
 ParameterTable PlayerParameters::table() {
   return atStartOnly(
       {{"recording", &recording, 0, 0, "a folder in the TUM or 7-Scenes layout, or a .bag or .oni file"},
-       {"camera_file", &camera_file, 0, 0, "camera file in place of the recording's; lens distortion is taken out"},
+       {"camera_file", &camera_file, 0, 0,
+        "camera file in place of the recording's; lens distortion is taken out"},
        {"depth_topic", &options.depth_topic, 0, 0, "of a bag, instead of the one found"},
        {"color_topic", &options.color_topic, 0, 0, "of a bag, instead of the one found"},
        {"frame_id", &frame_id, 0, 0, "optical frame of a recording's images"},
@@ -46,16 +47,17 @@ RecordingPlayer::RecordingPlayer(const SourceHost& host, const PlayerParameters&
   color_publisher_ = handle.advertise<sensor_msgs::Image>("rgb/image", 10);
   color_info_publisher_ = handle.advertise<sensor_msgs::CameraInfo>("rgb/camera_info", 10);
   if (parameters_.publish_clock) clock_publisher_ = handle.advertise<rosgraph_msgs::Clock>("/clock", 10);
-  map_subscriber_ = handle.subscribe<MapStatus>(
-      "tsdf_fusion/status", 100, [this](const MapStatus::ConstPtr& status) {
+  map_subscriber_ =
+      handle.subscribe<MapStatus>("tsdf_fusion/status", 100, [this](const MapStatus::ConstPtr& status) {
         if (status->fused && host_.counter.account().processed > 0) ++fused_;
         noteDone(status->header.stamp);
       });
-  tracker_subscriber_ = handle.subscribe<TrackerStatus>(
-      "icp_tracking/status", 100, [this](const TrackerStatus::ConstPtr& status) {
-        noteTracking(*status);
-        if (status->state >= TrackerStatus::LOST) noteDone(status->header.stamp);
-      });
+  tracker_subscriber_ = handle.subscribe<TrackerStatus>("icp_tracking/status", 100,
+                                                        [this](const TrackerStatus::ConstPtr& status) {
+                                                          noteTracking(*status);
+                                                          if (status->state >= TrackerStatus::LOST)
+                                                            noteDone(status->header.stamp);
+                                                        });
 }
 
 RecordingPlayer::~RecordingPlayer() {
@@ -136,18 +138,22 @@ void RecordingPlayer::awaitTime(double stamp_s) {
 }
 
 ros::Time RecordingPlayer::publish(const RgbdFrame& frame) {
-  const std_msgs::Header header = makeHeader(parameters_.restamp ? ros::Time::now() : toRosTime(frame.stamp_s), parameters_.frame_id);
+  const std_msgs::Header header =
+      makeHeader(parameters_.restamp ? ros::Time::now() : toRosTime(frame.stamp_s), parameters_.frame_id);
   if (parameters_.publish_clock) {
     rosgraph_msgs::Clock clock;
     clock.clock = header.stamp;
     clock_publisher_.publish(clock);
   }
   if (!frame.color.empty()) {
-    color_info_publisher_.publish(boost::make_shared<sensor_msgs::CameraInfo>(makeCameraInfo(header, colorCamera(frame))));
+    color_info_publisher_.publish(
+        boost::make_shared<sensor_msgs::CameraInfo>(makeCameraInfo(header, colorCamera(frame))));
     color_publisher_.publish(boost::make_shared<sensor_msgs::Image>(makeColorImage(header, frame.color)));
   }
-  depth_info_publisher_.publish(boost::make_shared<sensor_msgs::CameraInfo>(makeCameraInfo(header, frame.intrinsics)));
-  depth_publisher_.publish(boost::make_shared<sensor_msgs::Image>(makeDepthImage(header, frame.depth, frame.depth_unit_m)));
+  depth_info_publisher_.publish(
+      boost::make_shared<sensor_msgs::CameraInfo>(makeCameraInfo(header, frame.intrinsics)));
+  depth_publisher_.publish(
+      boost::make_shared<sensor_msgs::Image>(makeDepthImage(header, frame.depth, frame.depth_unit_m)));
   return header.stamp;
 }
 
@@ -182,7 +188,8 @@ std::string RecordingPlayer::summary() {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::ostringstream text;
   const size_t sent = host_.counter.account().processed;
-  text << sent << " frames sent, " << fused_ << " fused, " << lost_ << " lost, " << sent - std::min(sent, fused_ + lost_) << " dropped";
+  text << sent << " frames sent, " << fused_ << " fused, " << lost_ << " lost, "
+       << sent - std::min(sent, fused_ + lost_) << " dropped";
   if (parameters_.restamp) {
     text << "; pose " << std::lround(percentile(latencies_ms_, 0.5)) << " ms after the image (median), "
          << std::lround(percentile(latencies_ms_, 0.95)) << " ms (95 %)";

@@ -49,7 +49,8 @@ class RecordingPlayer : public FrameSource {
 
   PlayerParameters parameters_;
   std::unique_ptr<Recording> recording_;
-  ros::Publisher depth_publisher_, depth_info_publisher_, color_publisher_, color_info_publisher_, clock_publisher_;
+  ros::Publisher depth_publisher_, depth_info_publisher_, color_publisher_, color_info_publisher_,
+      clock_publisher_;
   ros::Subscriber map_subscriber_, tracker_subscriber_;
 
   std::atomic<size_t> fused_{0}, lost_{0};

@@ -27,7 +27,8 @@ std::vector<RgbdFrame> readFrames(const std::string& folder) {
 SimulatedDevice::SimulatedDevice(std::string folder, std::string serial)
     : folder_(std::move(folder)), serial_(std::move(serial)), frames_(readFrames(folder_)) {
   const int width = frames_.front().depth.cols, height = frames_.front().depth.rows;
-  depth_modes_ = {{ONI_PIXEL_FORMAT_SHIFT_9_2, width, height, 30}, {ONI_PIXEL_FORMAT_DEPTH_1_MM, width, height, 30}};
+  depth_modes_ = {{ONI_PIXEL_FORMAT_SHIFT_9_2, width, height, 30},
+                  {ONI_PIXEL_FORMAT_DEPTH_1_MM, width, height, 30}};
   color_modes_ = {{ONI_PIXEL_FORMAT_YUV422, width, height, 30}, {ONI_PIXEL_FORMAT_RGB888, width, height, 30}};
   ir_modes_ = {{ONI_PIXEL_FORMAT_GRAY16, width, height, 30}};
   sensors_ = {{ONI_SENSOR_DEPTH, static_cast<int>(depth_modes_.size()), depth_modes_.data()},
@@ -48,7 +49,9 @@ OniStatus SimulatedDevice::getSensorInfoList(OniSensorInfo** sensors, int* count
 }
 
 oni::driver::StreamBase* SimulatedDevice::createStream(OniSensorType sensor) {
-  const auto& modes = sensor == ONI_SENSOR_DEPTH ? depth_modes_ : sensor == ONI_SENSOR_COLOR ? color_modes_ : ir_modes_;
+  const auto& modes = sensor == ONI_SENSOR_DEPTH   ? depth_modes_
+                      : sensor == ONI_SENSOR_COLOR ? color_modes_
+                                                   : ir_modes_;
   auto* stream = new SimulatedStream(sensor, frames_.front().intrinsics, modes, folder_);
   const std::lock_guard<std::mutex> lock(mutex_);
   streams_.insert(stream);
@@ -81,7 +84,8 @@ OniStatus SimulatedDevice::getProperty(int id, void* data, int* size) {
 }
 
 OniStatus SimulatedDevice::setProperty(int id, const void* data, int size) {
-  if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION || size != sizeof(registration_)) return ONI_STATUS_NOT_SUPPORTED;
+  if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION || size != sizeof(registration_))
+    return ONI_STATUS_NOT_SUPPORTED;
   std::memcpy(&registration_, data, sizeof(registration_));
   return ONI_STATUS_OK;
 }
@@ -92,7 +96,8 @@ void SimulatedDevice::run() {
     const DeviceControl control = readControl(folder_);
     const int before = shown_.empty() ? -1 : shown_.back();
     // Where it was when it was unplugged, or one further.
-    shown_.push_back(std::min({before < 0 ? control.at : before + 1, control.at, static_cast<int>(frames_.size()) - 1}));
+    shown_.push_back(
+        std::min({before < 0 ? control.at : before + 1, control.at, static_cast<int>(frames_.size()) - 1}));
     if (control.plugged && !control.silent) deliver(static_cast<int>(shown_.size()) - 1, control);
     next += std::chrono::microseconds(std::lround(1e6 / control.fps));
     std::this_thread::sleep_until(next);
@@ -107,7 +112,8 @@ void SimulatedDevice::deliver(int tick, const DeviceControl& control) {
   for (SimulatedStream* stream : streams_) {
     if (stream->sensor() == ONI_SENSOR_COLOR) {
       if (color_tick >= 0)
-        stream->deliver(frameOf(color_tick).color, color_tick + 1, timeOf(color_tick), control.writes_addresses);
+        stream->deliver(frameOf(color_tick).color, color_tick + 1, timeOf(color_tick),
+                        control.writes_addresses);
     } else {
       stream->deliver(frameOf(tick).depth, tick + 1, timeOf(tick), control.writes_addresses);
     }

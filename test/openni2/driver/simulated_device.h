@@ -1,13 +1,12 @@
 // A device that shows a recording.
 #pragma once
 
-#include "openni2/driver/simulated_stream.h"
-
 #include <set>
 #include <string>
 #include <thread>
 
 #include "depth_fusion/recording/rgbd_frame.h"
+#include "openni2/driver/simulated_stream.h"
 
 namespace depth_fusion {
 
@@ -27,7 +26,9 @@ class SimulatedDevice : public oni::driver::DeviceBase {
  private:
   void run();
   void deliver(int tick, const DeviceControl& control);
-  const RgbdFrame& frameOf(int tick) const { return frames_[static_cast<size_t>(shown_[static_cast<size_t>(tick)])]; }
+  const RgbdFrame& frameOf(int tick) const {
+    return frames_[static_cast<size_t>(shown_[static_cast<size_t>(tick)])];
+  }
 
   const std::string folder_, serial_;
   std::vector<RgbdFrame> frames_;  // depth in millimetres, colour as RGB

@@ -1,10 +1,10 @@
 // A driver for OpenNI2: cameras that show a recording, and do wrong what a test tells them to.
 #define XN_NEW(Type, ...) new Type(__VA_ARGS__)
 #define XN_DELETE(pointer) delete (pointer)
-#include "openni2/driver/simulated_device.h"
-
 #include <cstdlib>
 #include <cstring>
+
+#include "openni2/driver/simulated_device.h"
 
 namespace depth_fusion {
 namespace {

@@ -14,7 +14,8 @@ OniStatus give(const Value& value, void* data, int* size) {
 }
 
 bool sameMode(const OniVideoMode& a, const OniVideoMode& b) {
-  return a.pixelFormat == b.pixelFormat && a.resolutionX == b.resolutionX && a.resolutionY == b.resolutionY && a.fps == b.fps;
+  return a.pixelFormat == b.pixelFormat && a.resolutionX == b.resolutionX && a.resolutionY == b.resolutionY &&
+         a.fps == b.fps;
 }
 
 }  // namespace
@@ -61,33 +62,45 @@ void SimulatedStream::deliver(const cv::Mat& pixels, int index, uint64_t timesta
 }
 
 OniBool SimulatedStream::isPropertySupported(int id) {
-  return id <= ONI_STREAM_PROPERTY_MIN_VALUE || id == ONI_STREAM_PROPERTY_MIRRORING || settingOf(id) != nullptr;
+  return id <= ONI_STREAM_PROPERTY_MIN_VALUE || id == ONI_STREAM_PROPERTY_MIRRORING ||
+         settingOf(id) != nullptr;
 }
 
 int* SimulatedStream::settingOf(int id) {
   if (sensor_ != ONI_SENSOR_COLOR) return nullptr;
   switch (id) {
-    case ONI_STREAM_PROPERTY_AUTO_EXPOSURE: return &settings_.auto_exposure;
-    case ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE: return &settings_.auto_white_balance;
-    case ONI_STREAM_PROPERTY_EXPOSURE: return &settings_.exposure;
-    case ONI_STREAM_PROPERTY_GAIN: return &settings_.gain;
-    default: return nullptr;
+    case ONI_STREAM_PROPERTY_AUTO_EXPOSURE:
+      return &settings_.auto_exposure;
+    case ONI_STREAM_PROPERTY_AUTO_WHITE_BALANCE:
+      return &settings_.auto_white_balance;
+    case ONI_STREAM_PROPERTY_EXPOSURE:
+      return &settings_.exposure;
+    case ONI_STREAM_PROPERTY_GAIN:
+      return &settings_.gain;
+    default:
+      return nullptr;
   }
 }
 
 OniStatus SimulatedStream::getProperty(int id, void* data, int* size) {
   if (const int* setting = settingOf(id)) return give(*setting, data, size);
   switch (id) {
-    case ONI_STREAM_PROPERTY_VIDEO_MODE: return give(mode_, data, size);
-    case ONI_STREAM_PROPERTY_MIRRORING: return give(mirrored_, data, size);
+    case ONI_STREAM_PROPERTY_VIDEO_MODE:
+      return give(mode_, data, size);
+    case ONI_STREAM_PROPERTY_MIRRORING:
+      return give(mirrored_, data, size);
     case ONI_STREAM_PROPERTY_HORIZONTAL_FOV:
       return give(static_cast<float>(2.0 * std::atan(0.5 * camera_.width / camera_.fx)), data, size);
     case ONI_STREAM_PROPERTY_VERTICAL_FOV:
       return give(static_cast<float>(2.0 * std::atan(0.5 * camera_.height / camera_.fy)), data, size);
-    case ONI_STREAM_PROPERTY_MAX_VALUE: return give(10000, data, size);
-    case ONI_STREAM_PROPERTY_MIN_VALUE: return give(0, data, size);
-    case ONI_STREAM_PROPERTY_CROPPING: return give(OniCropping{}, data, size);
-    default: return ONI_STATUS_NOT_SUPPORTED;
+    case ONI_STREAM_PROPERTY_MAX_VALUE:
+      return give(10000, data, size);
+    case ONI_STREAM_PROPERTY_MIN_VALUE:
+      return give(0, data, size);
+    case ONI_STREAM_PROPERTY_CROPPING:
+      return give(OniCropping{}, data, size);
+    default:
+      return ONI_STATUS_NOT_SUPPORTED;
   }
 }
 
@@ -95,8 +108,8 @@ OniStatus SimulatedStream::setProperty(int id, const void* data, int size) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (int* setting = settingOf(id)) {
     std::memcpy(setting, data, sizeof(*setting));
-    std::ofstream(settingsPath(folder_)) << settings_.auto_exposure << ' ' << settings_.auto_white_balance << ' '
-                                         << settings_.exposure << ' ' << settings_.gain;
+    std::ofstream(settingsPath(folder_)) << settings_.auto_exposure << ' ' << settings_.auto_white_balance
+                                         << ' ' << settings_.exposure << ' ' << settings_.gain;
     return ONI_STATUS_OK;
   }
   if (id == ONI_STREAM_PROPERTY_MIRRORING && size == sizeof(mirrored_)) {

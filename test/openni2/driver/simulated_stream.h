@@ -1,9 +1,8 @@
 // A stream of the simulated device.
 #pragma once
 
-#include <OniCTypes.h>
-
 #include <Driver/OniDriverAPI.h>
+#include <OniCTypes.h>
 
 #include <atomic>
 #include <functional>
@@ -22,8 +21,8 @@ struct ColorSettings {
 
 class SimulatedStream : public oni::driver::StreamBase {
  public:
-  SimulatedStream(OniSensorType sensor, const CameraIntrinsics& camera, const std::vector<OniVideoMode>& modes,
-                  std::string folder);
+  SimulatedStream(OniSensorType sensor, const CameraIntrinsics& camera,
+                  const std::vector<OniVideoMode>& modes, std::string folder);
 
   OniStatus start() override;
   void stop() override;
