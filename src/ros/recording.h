@@ -9,7 +9,9 @@
 
 namespace depth_fusion {
 
-// A .bag file, or a folder as openFolder takes it. Throws Error for anything else.
+bool endsWith(const std::string& path, const std::string& ending);
+
+// A .bag or .oni file, or a folder as openFolder takes it. Throws Error for anything else.
 std::unique_ptr<Recording> openRecording(const std::string& path, const RecordingOptions& options);
 
 // Reads a bag: depth as sensor_msgs/Image (16UC1, mono16, 32FC1) or CompressedImage (compressedDepth png),
