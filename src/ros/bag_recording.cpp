@@ -81,8 +81,10 @@ class BagRecording : public Recording {
     frame.depth_unit_m = depth.unit_m;
     frame.intrinsics = sources_.intrinsics.camera;
     checkDepthSize(frame.depth, frame.intrinsics, depth_image.name);
-    if (const BagImage* color_image = nearestColor(frame.stamp_s))
-      readColorOrProblem(frame, [&] { return toColor(*color_image); });
+    const BagImage* color_image = nearestColor(frame.stamp_s);
+    if (color_image == nullptr) return frame;
+    frame.color_stamp_s = color_image->stamp_s;
+    readColorOrProblem(frame, [&] { return toColor(*color_image); });
     return frame;
   }
 
