@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <iostream>
 
 #include "calibration/frame_pair.h"
 #include "calibration/plane_patches.h"
@@ -13,16 +12,18 @@
 namespace depth_fusion {
 namespace {
 
-// What is known of a sensor before: its offsets are about 0 by 3 % of the depth at 1 m, in common, and 1 %
-// between neighbours.
-constexpr double kOffsetSigma_per_m = 0.03;
+// What is known of a sensor before: neighbouring offsets differ by about 1 % of the depth at 1 m, and as its
+// maker has calibrated it, their mean is 0 to half a percent. Without the latter, small errors of any kind
+// would turn into a large common offset, which real scenes tell little of.
 constexpr double kNeighbourSigma_per_m = 0.01;
+constexpr double kMeanSigma_per_m = 0.005;
 constexpr double kReadoutSigma_s = 0.03;
-// An estimate counts as observed if its standard deviation is below this part of the one before.
-constexpr double kObservedPart = 0.3;
+// An offset, and the readout, counts as determined if its standard deviation is below.
+constexpr double kObservedOffset_per_m = 0.008;
+constexpr double kObservedReadout_s = 0.008;
 
 // Residuals of neighbouring pixels, and of frames with the same noise pattern, are no independent ones.
-constexpr double kCorrelatedResiduals = 50.0;
+constexpr double kCorrelatedResiduals = 200.0;
 // What the method itself is off by, found on simulated recordings: no uncertainty is below.
 constexpr double kMethodOffsetSigma_per_m = 0.0015;
 constexpr double kMethodReadoutSigma_s = 0.0015;
@@ -31,14 +32,14 @@ constexpr int kSegments = 10;
 
 // Frames of a pair are so many apart.
 constexpr int kPairGaps[] = {1, 2, 4, 8, 16};
-// From what a wrong sensor may have to what its noise allows.
-constexpr double kCutoffs_sigmas[] = {12.0, 6.0, 4.0, 4.0};
+// The passes, with where residuals end to count.
+constexpr double kCutoffs_sigmas[] = {4.0, 3.0, 3.0};
 
 ParameterMatrix priorHessian() {
-  ParameterVector diagonal =
-      ParameterVector::Constant(1.0 / (kReadoutIndex * kOffsetSigma_per_m * kOffsetSigma_per_m));
-  diagonal[kReadoutIndex] = 1.0 / (kReadoutSigma_s * kReadoutSigma_s);
-  ParameterMatrix hessian = diagonal.asDiagonal();
+  ParameterVector mean = ParameterVector::Constant(1.0 / (kReadoutIndex * kMeanSigma_per_m));
+  mean[kReadoutIndex] = 0.0;
+  ParameterMatrix hessian = mean * mean.transpose();
+  hessian(kReadoutIndex, kReadoutIndex) = 1.0 / (kReadoutSigma_s * kReadoutSigma_s);
   const auto bind = [&](int a, int b) {
     const double weight = 1.0 / (kNeighbourSigma_per_m * kNeighbourSigma_per_m);
     hessian(a, a) += weight;
@@ -168,9 +169,9 @@ class Calibrator {
     result.offsets_per_m = gridOf(estimate_);
     result.sigmas_per_m = gridOf(sigmas_);
     result.observed_offsets =
-        static_cast<int>((sigmas_.head<kReadoutIndex>().array() < kObservedPart * kOffsetSigma_per_m).count());
+        static_cast<int>((sigmas_.head<kReadoutIndex>().array() < kObservedOffset_per_m).count());
     result.readout_s = {estimate_[kReadoutIndex], sigmas_[kReadoutIndex]};
-    result.readout_observed = sigmas_[kReadoutIndex] < kObservedPart * kReadoutSigma_s;
+    result.readout_observed = sigmas_[kReadoutIndex] < kObservedReadout_s;
   }
 
   const std::vector<CalibrationFrame>& frames_;
@@ -200,7 +201,6 @@ DepthCalibration calibrateDepth(ComputeContext& compute, const PipelineParameter
         "no plane is large enough, and no two frames see the same surface; show the sensor walls, floors and "
         "tables "
         "within its range");
-  if (getenv("DBG")) std::cerr << result.sigmas_per_m << "\n" << result.offsets_per_m << "\n" << result.readout_s.value << " " << result.readout_s.sigma << " pairs " << result.pairs << " planes " << result.planes << " rms " << result.before.rms_per_m << " " << result.after.rms_per_m << "\n";
   check(result.observed_offsets > 0,
         "the depth offsets are not determined by what the frames see; show the sensor large planes at many "
         "distances");

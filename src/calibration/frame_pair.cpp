@@ -17,8 +17,9 @@ constexpr double kMinNormalCosine = 0.85;
 constexpr double kMinMatchedPart = 0.2;
 constexpr size_t kMinMatches = 200;
 
-// Derivatives and weights are those of the mean of both points, in which their noise does not correlate with that of the
-// residual. Taken at either point, they would: the least squares would then prefer depth that shrinks.
+// Derivatives and weights are those of the mean of both points, in which their noise does not correlate with
+// that of the residual. Taken at either point, they would: the least squares would then prefer depth that
+// shrinks.
 struct PointMatch {
   ViewPoint a, b;  // moved to their mean along their rays
   Vector3d normal_A;
@@ -32,7 +33,8 @@ double varianceAcross(const ViewPoint& point, const Vector3d& normal) {
 
 void moveToMean(PointMatch& match, const DepthSensorParameters& sensor) {
   const Vector3d& normal_B = match.b.normal_D;
-  const double variance_a = varianceAcross(match.a, match.normal_A), variance_b = varianceAcross(match.b, normal_B);
+  const double variance_a = varianceAcross(match.a, match.normal_A),
+               variance_b = varianceAcross(match.b, normal_B);
   const double of_a_m = match.residual_m * variance_a / (variance_a + variance_b);
   const double of_b_m = match.residual_m - of_a_m;
   match.a.p_D *= 1.0 - of_a_m / match.normal_A.dot(match.a.p_D);

@@ -6,7 +6,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr int kMinResiduals = 200;  // of a part of the image, for its mean to stand out of the noise
+constexpr int kMinResiduals = 50;  // of a part of the image, for its mean to stand out of the noise
 
 }  // namespace
 

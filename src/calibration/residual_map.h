@@ -13,7 +13,7 @@ class ResidualMap {
   DepthResiduals residuals() const;
 
  private:
-  static constexpr int kColumns = 32, kRows = 24;
+  static constexpr int kColumns = 20, kRows = 15;
 
   cv::Mat products_ = cv::Mat::zeros(kRows, kColumns, CV_64FC1);
   cv::Mat squares_ = cv::Mat::zeros(kRows, kColumns, CV_64FC1);

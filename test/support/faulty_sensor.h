@@ -1,4 +1,5 @@
-// A simulated depth sensor with systematic errors that are known exactly, moved about the room's table as for calibration.
+// A simulated depth sensor with systematic errors that are known exactly, moved about the room's table as for
+// calibration.
 #pragma once
 
 #include <functional>
@@ -44,7 +45,7 @@ class FaultySensor {
     frame.stamp_s = time_s;
     frame.intrinsics = camera_;
     frame.color = view.color;
-    frame.depth = getenv("NONOISE") ? idealDepth(view, scene_.sensor) : senseDepth(view, scene_.sensor, seed);
+    frame.depth = senseDepth(view, scene_.sensor, seed);
     spoil(frame.depth);
     return frame;
   }
