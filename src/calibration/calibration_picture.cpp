@@ -41,24 +41,30 @@ void drawPanel(cv::Mat& picture, int number, const std::string& title, const cv:
   write(picture, title, {place.x, kTitle_px - 12});
 }
 
-void drawScale(cv::Mat& picture, double limit) {
+void drawScale(cv::Mat& picture) {
   const cv::Rect place(kMargin_px, kTitle_px + kPanel.height + 16, kPanel.width, 14);
   for (int x = 0; x < place.width; ++x) {
-    const auto value = static_cast<float>(limit * (2.0 * x / place.width - 1.0));
-    picture(cv::Rect(place.x + x, place.y, 1, place.height)).setTo(colorOf(value, limit));
+    picture(cv::Rect(place.x + x, place.y, 1, place.height))
+        .setTo(colorOf(2.0f * x / place.width - 1.0f, 1.0));
   }
   cv::rectangle(picture, place, kInk);
-  char text[100];
-  std::snprintf(text, sizeof(text),
-                "-%.0f to +%.0f mm too far at 1 m (at 2 m four times as much); grey: not seen", 1e3 * limit,
-                1e3 * limit);
-  write(picture, text, {place.br().x + 12, place.br().y - 2});
+  write(picture,
+        "blue: measured too near, red: too far, at 1 m (at 2 m four times as much); grey: no plane there",
+        {place.br().x + 12, place.br().y - 2});
 }
 
-std::string withRms(const std::string& name, double rms_per_m) {
-  char text[100];
-  std::snprintf(text, sizeof(text), "%s: %.1f mm RMS at 1 m", name.c_str(), 1e3 * rms_per_m);
+std::string millimetres(double metres) {
+  char text[50];
+  std::snprintf(text, sizeof(text), "%.1f mm", 1e3 * metres);
   return text;
+}
+
+// The largest magnitude, rounded up to whole millimetres.
+double limitOf(const cv::Mat& values_per_m) {
+  float largest = 0.0f;
+  for (const float value : cv::Mat_<float>(values_per_m))
+    largest = std::max(largest, std::isnan(value) ? 0.0f : std::abs(value));
+  return std::max(std::ceil(1e3 * largest), 1.0) / 1e3;
 }
 
 }  // namespace
@@ -66,15 +72,18 @@ std::string withRms(const std::string& name, double rms_per_m) {
 cv::Mat drawCalibration(const DepthCalibration& calibration) {
   const DepthResiduals &before = calibration.before, &after = calibration.after;
   const cv::Mat correction = spreadOffsets(calibration.offsets_per_m, kPanel);
-  double largest = 0.0;
-  cv::minMaxLoc(cv::abs(correction), nullptr, &largest);
-  const double limit = std::max(0.005, std::ceil(largest * 200.0) / 200.0);
+  const double limit = limitOf(before.map_per_m), correction_limit = limitOf(correction);
   cv::Mat picture(kTitle_px + kPanel.height + kScale_px, 3 * kPanel.width + 4 * kMargin_px, CV_8UC3,
                   cv::Scalar::all(255));
-  drawPanel(picture, 0, withRms("before", before.rms_per_m), before.map_per_m, limit);
-  drawPanel(picture, 1, withRms("after", after.rms_per_m), after.map_per_m, limit);
-  drawPanel(picture, 2, "correction", correction, limit);
-  drawScale(picture, limit);
+  drawPanel(picture, 0,
+            "planes before: " + millimetres(before.rms_per_m) + " RMS, colours +-" + millimetres(limit),
+            before.map_per_m, limit);
+  drawPanel(picture, 1,
+            "planes after: " + millimetres(after.rms_per_m) + " RMS, colours +-" + millimetres(limit),
+            after.map_per_m, limit);
+  drawPanel(picture, 2, "correction, colours +-" + millimetres(correction_limit), correction,
+            correction_limit);
+  drawScale(picture);
   return picture;
 }
 

@@ -80,7 +80,7 @@ class PlaneFit {
 
   void note(const Plane& plane, ResidualMap& map) const {
     for (const ViewPoint& point : points_) {
-      map.add(point.pixel, view_.camera(), residualOf(point, plane), 1.0, weightOf(point, plane));
+      map.add(point.pixel, view_.camera(), residualOf(point, plane), weightOf(point, plane));
     }
   }
 

@@ -10,11 +10,11 @@ constexpr int kMinResiduals = 50;  // of a part of the image, for its mean to st
 
 }  // namespace
 
-void ResidualMap::add(const cv::Point& pixel, const CameraIntrinsics& camera, double residual,
-                      double by_offset, double weight) {
+void ResidualMap::add(const cv::Point& pixel, const CameraIntrinsics& camera, double residual_per_m,
+                      double weight) {
   const cv::Point cell(pixel.x * kColumns / camera.width, pixel.y * kRows / camera.height);
-  products_.at<double>(cell) -= weight * by_offset * residual;
-  squares_.at<double>(cell) += weight * by_offset * by_offset;
+  sums_.at<double>(cell) -= weight * residual_per_m;
+  weights_.at<double>(cell) += weight;
   ++counts_.at<int>(cell);
 }
 
@@ -25,8 +25,8 @@ DepthResiduals ResidualMap::residuals() const {
   int cells = 0;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      if (counts_.at<int>(row, column) < kMinResiduals || squares_.at<double>(row, column) <= 0.0) continue;
-      const double lacking_per_m = products_.at<double>(row, column) / squares_.at<double>(row, column);
+      if (counts_.at<int>(row, column) < kMinResiduals || weights_.at<double>(row, column) <= 0.0) continue;
+      const double lacking_per_m = sums_.at<double>(row, column) / weights_.at<double>(row, column);
       result.map_per_m.at<float>(row, column) = static_cast<float>(lacking_per_m);
       squares += lacking_per_m * lacking_per_m;
       ++cells;

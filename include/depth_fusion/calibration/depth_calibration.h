@@ -23,9 +23,10 @@ struct CalibrationFrame {
   Vector6d velocity = Vector6d::Zero();  // of D in D, per second
 };
 
-// The systematic part of what is left over, before or after the correction.
+// How far planes are from flat, before or after the correction, apart from noise.
 struct DepthResiduals {
-  cv::Mat map_per_m;  // CV_32FC1: what the inverse depth lacks by part of the image; NaN where nothing tells
+  cv::Mat
+      map_per_m;  // CV_32FC1: what their inverse depth lacks, by part of the image; NaN where there are none
   double rms_per_m = 0.0;
 };
 

@@ -30,8 +30,9 @@ std::string depthText(const DepthCalibration& depth) {
   std::string text =
       line("depth offsets: %+.1f to %+.1f mm at 1 m, give or take %.1f; %d of %d are determined", 1e3 * least,
            1e3 * largest, 1e3 * cv::mean(depth.sigmas_per_m)[0], depth.observed_offsets, total);
-  text += line("  systematic error at 1 m: %.1f mm RMS before, %.1f after", 1e3 * depth.before.rms_per_m,
-               1e3 * depth.after.rms_per_m);
+  text += depth.planes > 0 ? line("  planes are flat to %.1f mm RMS at 1 m before, to %.1f after",
+                                  1e3 * depth.before.rms_per_m, 1e3 * depth.after.rms_per_m)
+                           : line("  no plane was seen");
   const Estimate& readout = depth.readout_s;
   text += depth.readout_observed
               ? line("readout: %.1f +- %.1f ms from the first row to the last", 1e3 * readout.value,
@@ -84,7 +85,7 @@ Json toJson(const CalibrationReport& report) {
       {"offsets_per_m", toJson(depth.offsets_per_m)},
       {"offset_sigmas_per_m", toJson(depth.sigmas_per_m)},
       {"observed_offsets", depth.observed_offsets},
-      {"systematic_error_per_m", {{"before", depth.before.rms_per_m}, {"after", depth.after.rms_per_m}}},
+      {"flatness_per_m", {{"before", depth.before.rms_per_m}, {"after", depth.after.rms_per_m}}},
       {"readout_s", toJson(depth.readout_s)},
       {"color_offset_s", toJson(report.color)}};
   if (report.poses) json["pose_offset_s"] = toJson(*report.poses);
