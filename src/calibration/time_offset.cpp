@@ -1,7 +1,7 @@
 #include "depth_fusion/calibration/time_offset.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "calibration/calibration_system.h"
 #include "depth_fusion/common/percentile.h"
@@ -11,11 +11,14 @@ namespace depth_fusion {
 namespace {
 
 constexpr double kMaxPoseGap_s = 0.1;
-constexpr double kDifference_s = 0.034;  // for the acceleration; a frame, so that the poses' noise cancels
+constexpr double kDifference_s = 0.1;  // for the acceleration, whose noise falls with it
+// The square of the acceleration that noise alone gives three components, in squares of the residuals' sigma.
+constexpr double kNoiseCurvature = 3.0 * 0.27 / (kDifference_s * kDifference_s);
+constexpr double kMinCurvature = 3.0;  // times that of noise
 constexpr double kMaxOffset_s = 0.2;
 constexpr double kMaxSigma_s = 0.005;
 constexpr double kCutoff_sigmas = 4.0;
-constexpr double kSigmasPerMedian = 1.4826;
+constexpr double kSigmasPerMedian = 0.65;  // of the length of three normal components
 constexpr size_t kMinMotions = 30;
 constexpr int kSteps = 15;
 constexpr int kSegments = 10;
@@ -48,16 +51,17 @@ double sigmaOf(const std::vector<Difference>& differences, int first) {
   std::vector<double> lengths;
   for (const Difference& difference : differences)
     lengths.push_back(difference.residual.segment<3>(first).norm());
-  return std::max(kSigmasPerMedian / std::sqrt(3.0) * percentile(lengths, 0.5), 1e-9);
+  return std::max(kSigmasPerMedian * percentile(lengths, 0.5), 1e-9);
 }
 
 struct Step {
   double offset_s = 0.0, sigma_s = 0.0;
+  bool speed_changes = false;  // by more than noise
 };
 
 Step stepOf(const std::vector<Difference>& differences) {
   std::array<double, kSegments> pulls{};
-  double curvature = 0.0;
+  double curvature = 0.0, noise = 0.0;
   const double sigmas[] = {sigmaOf(differences, 0), sigmaOf(differences, 3)};
   for (size_t i = 0; i < differences.size(); ++i) {
     for (int part = 0; part < 2; ++part) {
@@ -66,9 +70,12 @@ Step stepOf(const std::vector<Difference>& differences) {
       const double weight = tukeyWeight(residual.norm(), kCutoff_sigmas * std::sqrt(3.0));
       pulls[i * kSegments / differences.size()] += weight * residual.dot(by_offset);
       curvature += weight * by_offset.squaredNorm();
+      noise += weight * kNoiseCurvature;
     }
   }
   Step step;
+  step.speed_changes = curvature > kMinCurvature * noise;
+  curvature = std::max(curvature - noise, 0.5 * curvature);
   for (const double pull : pulls) step.offset_s += pull / curvature;
   for (const double pull : pulls) step.sigma_s += std::pow(pull / curvature - step.offset_s / kSegments, 2);
   step.sigma_s = std::sqrt(step.sigma_s * kSegments / (kSegments - 1.0));
@@ -79,6 +86,7 @@ Step stepOf(const std::vector<Difference>& differences) {
 
 TimeOffset findTimeOffset(const std::vector<MeasuredMotion>& motions, const Trajectory& trajectory) {
   TimeOffset result;
+  bool speed_changes = false;
   for (int i = 0; i < kSteps; ++i) {
     std::vector<Difference> differences;
     for (const MeasuredMotion& motion : motions) {
@@ -90,20 +98,15 @@ TimeOffset findTimeOffset(const std::vector<MeasuredMotion>& motions, const Traj
       return result;
     }
     const Step step = stepOf(differences);
-    result.offset_s.value += step.offset_s;
-    result.offset_s.sigma = step.sigma_s;
+    result.offset_s = {result.offset_s.value + step.offset_s, step.sigma_s};
+    speed_changes = step.speed_changes;
     if (!(std::abs(result.offset_s.value) < kMaxOffset_s)) {
       result.reason = "the motions do not match within 0.2 s";
       return result;
     }
   }
-  result.found = result.offset_s.sigma < kMaxSigma_s;
-  if (!result.found) {
-    char text[100];
-    std::snprintf(text, sizeof(text), "the speed changes too little: %+.0f ms, but give or take %.0f",
-                  1e3 * result.offset_s.value, 1e3 * result.offset_s.sigma);
-    result.reason = text;
-  }
+  result.found = speed_changes && result.offset_s.sigma < kMaxSigma_s;
+  if (!result.found) result.reason = "the sensor's speed changes too little";
   return result;
 }
 
