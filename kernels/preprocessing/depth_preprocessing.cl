@@ -8,23 +8,35 @@ inline vfloat within_range(vfloat depth_m, vint x, const CameraArgs camera, cons
   return select((vfloat)(0.0f), depth_m, good);
 }
 
-// input: width * height values without padding, and SIMD_WIDTH more of any kind.
-__kernel void depth_to_metres_u16(__global const ushort *input, __global float *depth, CameraArgs camera,
-                                  RangeArgs range) {
-  const int x = get_global_id(0) * SIMD_WIDTH;
-  const int y = get_global_id(1);
-  if (x >= camera.width) return;
-  const vfloat value = TO_VFLOAT(VLOAD(input + y * camera.width + x)) * range.unit_m;
-  VSTORE(within_range(value, x + LANE_INDICES, camera, range), depth + pixel_index(x, y, camera));
+// Without the sensor's systematic error, if the program is built with -DCORRECTED.
+inline vfloat corrected(vfloat depth_m, __global const float *offsets) {
+#ifdef CORRECTED
+  return depth_m / (1.0f + depth_m * VLOAD(offsets));
+#else
+  return depth_m;
+#endif
 }
 
-__kernel void depth_to_metres_f32(__global const float *input, __global float *depth, CameraArgs camera,
-                                  RangeArgs range) {
+// input: width * height values without padding, and SIMD_WIDTH more of any kind.
+// offsets: an image of what the inverse depth lacks, read with -DCORRECTED.
+__kernel void depth_to_metres_u16(__global const ushort *input, __global const float *offsets, __global float *depth,
+                                  CameraArgs camera, RangeArgs range) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
   if (x >= camera.width) return;
-  const vfloat value = VLOAD(input + y * camera.width + x) * range.unit_m;
-  VSTORE(within_range(value, x + LANE_INDICES, camera, range), depth + pixel_index(x, y, camera));
+  const int index = pixel_index(x, y, camera);
+  const vfloat value = corrected(TO_VFLOAT(VLOAD(input + y * camera.width + x)) * range.unit_m, offsets + index);
+  VSTORE(within_range(value, x + LANE_INDICES, camera, range), depth + index);
+}
+
+__kernel void depth_to_metres_f32(__global const float *input, __global const float *offsets, __global float *depth,
+                                  CameraArgs camera, RangeArgs range) {
+  const int x = get_global_id(0) * SIMD_WIDTH;
+  const int y = get_global_id(1);
+  if (x >= camera.width) return;
+  const int index = pixel_index(x, y, camera);
+  const vfloat value = corrected(VLOAD(input + y * camera.width + x) * range.unit_m, offsets + index);
+  VSTORE(within_range(value, x + LANE_INDICES, camera, range), depth + index);
 }
 
 // Averages neighbours in a 5x5 window, weighted by distance in the image and, with Tukey's biweight, in depth.

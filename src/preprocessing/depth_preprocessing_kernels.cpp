@@ -14,6 +14,8 @@ DepthPreprocessingKernels::DepthPreprocessingKernels(ComputeContext& compute)
     : simd_width_(compute.impl().simd_width),
       from_u16_(compute, kFile, "depth_to_metres_u16"),
       from_f32_(compute, kFile, "depth_to_metres_f32"),
+      from_u16_corrected_(compute, kFile, "depth_to_metres_u16", "-DCORRECTED"),
+      from_f32_corrected_(compute, kFile, "depth_to_metres_f32", "-DCORRECTED"),
       compensate_motion_(compute, "preprocessing/compensate_motion.cl", "compensate_motion"),
       bilateral_(compute, kFile, "filter_bilateral"),
       halve_(compute, kFile, "halve_depth"),
@@ -22,9 +24,13 @@ DepthPreprocessingKernels::DepthPreprocessingKernels(ComputeContext& compute)
       pack_weighted_(compute, kMeasurementsFile, "pack_measurements", "-DWEIGHTS"),
       tiles_(compute, kFile, "max_tiles") {}
 
-void DepthPreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input, DeviceBuffer& depth,
-                                              const CameraIntrinsics& camera, const RangeArgs& range) {
-  (is_u16 ? from_u16_ : from_f32_).run2d(vectorsAcross(camera, simd_width_), camera.height, input, depth, toArgs(camera), range);
+void DepthPreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input, const DeviceBuffer& offsets,
+                                              DeviceBuffer& depth, const CameraIntrinsics& camera,
+                                              const RangeArgs& range) {
+  Kernel& plain = is_u16 ? from_u16_ : from_f32_;
+  Kernel& with_offsets = is_u16 ? from_u16_corrected_ : from_f32_corrected_;
+  Kernel& kernel = offsets.bytes() == 0 ? plain : with_offsets;
+  kernel.run2d(vectorsAcross(camera, simd_width_), camera.height, input, offsets, depth, toArgs(camera), range);
 }
 
 void DepthPreprocessingKernels::compensateMotion(const DeviceBuffer& depth, DeviceBuffer& compensated,

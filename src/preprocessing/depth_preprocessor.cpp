@@ -5,6 +5,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/compute/device_image.h"
+#include "depth_fusion/preprocessing/depth_correction.h"
 #include "preprocessing/depth_preprocessing_kernels.h"
 
 namespace depth_fusion {
@@ -56,6 +57,10 @@ ParameterTable PreprocessingParameters::table() {
   return {
       {"min_range_m", &min_range_m, 0.0, 100.0, "nearer depth is left out"},
       {"max_range_m", &max_range_m, 0.01, 100.0, "farther depth is left out"},
+      {"depth_scale", &depth_scale, 0.5, 2.0, "factor on the depth, from a calibration against a known length"},
+      {"depth_offsets_per_m", &depth_offsets_per_m, 0.0, 0.0,
+       "columns, rows and, row by row over the image, what to add to the inverse depth (1/m), as calibrate writes it; "
+       "empty: nothing"},
       {"readout_s", &readout_s, 0.0, 1.0,
        "rolling shutter: from the first row's exposure to the last's; 0: all at once (global shutter)"},
       {"stamp_delay_s", &stamp_delay_s, -1.0, 1.0, "from the last row's exposure to the stamp"},
@@ -70,6 +75,7 @@ ParameterTable PreprocessingParameters::table() {
 void validateRange(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor) {
   validate(PreprocessingParameters(parameters).table());
   validate(DepthSensorParameters(sensor).table());
+  parseDepthOffsets(parameters.depth_offsets_per_m);
   check(parameters.min_range_m < std::min(parameters.max_range_m, sensor.maxRange_m()),
         "preprocessing/min_range_m must be below preprocessing/max_range_m and the range of "
         "depth_sensor/max_sigma_m");
@@ -91,13 +97,16 @@ DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const Preprocessin
   const size_t pixels = static_cast<size_t>(camera.width) * camera.height;
   input_ = DeviceBuffer(compute, (pixels + 16) * sizeof(float), "the depth image");
   skewed_depth_ = zeroImage(compute, camera);
+  uploadOffsets();
 }
 
 DepthPreprocessor::~DepthPreprocessor() = default;
 
 void DepthPreprocessor::setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor) {
+  const bool new_offsets = parameters.depth_offsets_per_m != parameters_.depth_offsets_per_m;
   parameters_ = limited(parameters, sensor);
   sensor_ = sensor;
+  if (new_offsets) uploadOffsets();
 }
 
 const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vector6d& velocity) {
@@ -120,8 +129,8 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
 
   const bool compensates = !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);
   kernels_->depthToMetres(
-      is_u16, input_, compensates ? skewed_depth_ : result.raw_depth, camera,
-      {static_cast<float>(frame.depth_unit_m), parameters_.min_range_m, parameters_.max_range_m});
+      is_u16, input_, offsets_, compensates ? skewed_depth_ : result.raw_depth, camera,
+      {static_cast<float>(frame.depth_unit_m * parameters_.depth_scale), parameters_.min_range_m, parameters_.max_range_m});
   if (compensates) {
     kernels_->compensateMotion(skewed_depth_, result.raw_depth, camera, sensorMotion(velocity, parameters_));
   }
@@ -137,6 +146,15 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
   const DeviceBuffer none;
   kernels_->packMeasurements(result, frame.weights.empty() ? none : weights_, result.measurements);
   return result;
+}
+
+void DepthPreprocessor::uploadOffsets() {
+  offsets_ = DeviceBuffer();
+  const cv::Mat grid = parseDepthOffsets(parameters_.depth_offsets_per_m);
+  if (grid.empty()) return;
+  const CameraIntrinsics& camera = results_.current()->levels[0].camera;
+  offsets_ = zeroImage(compute_, camera, 1);
+  writeImage(offsets_, camera, spreadOffsets(grid, {camera.width, camera.height}));
 }
 
 void DepthPreprocessor::uploadWeights(const cv::Mat& weights) {

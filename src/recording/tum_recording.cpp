@@ -64,7 +64,9 @@ class TumRecording : public Recording {
     frame.distortion = distortion_;
     checkDepthSize(frame.depth, frame.intrinsics, depth_file.path);
     const TimedFile* color_file = nearestFile(color_files_, depth_file.stamp_s, max_pairing_gap_s_);
-    if (color_file != nullptr) readColorOrProblem(frame, [&] { return readColorImage(color_file->path); });
+    if (color_file == nullptr) return frame;
+    frame.color_stamp_s = color_file->stamp_s;
+    readColorOrProblem(frame, [&] { return readColorImage(color_file->path); });
     return frame;
   }
 

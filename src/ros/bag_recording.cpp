@@ -85,8 +85,10 @@ class BagRecording : public Recording {
     frame.color_distortion = sources_.color_distortion;
     frame.T_C_D = sources_.T_C_D;
     checkDepthSize(frame.depth, frame.intrinsics, depth_image.name);
-    if (const BagImage* color_image = nearestColor(frame.stamp_s))
-      readColorOrProblem(frame, [&] { return toColor(*color_image); });
+    const BagImage* color_image = nearestColor(frame.stamp_s);
+    if (color_image == nullptr) return frame;
+    frame.color_stamp_s = color_image->stamp_s;
+    readColorOrProblem(frame, [&] { return toColor(*color_image); });
     return frame;
   }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "depth_fusion/compute/device_image.h"
+#include "depth_fusion/preprocessing/depth_correction.h"
 #include "geometry/kernel_args.h"
 #include "reference/depth_preprocessing.h"
 #include "support/expect_error.h"
@@ -90,6 +91,34 @@ TEST(DepthPreprocessor, MetresOfIntegers) {
     const RangeArgs range{0.0002f, parameters.min_range_m, parameters.max_range_m};
     EXPECT_TRUE(sameImage(readImage(frame.raw_depth, camera), reference::depthToMetres(input, range)));
     EXPECT_EQ(nonzeroPadding(frame.raw_depth, camera), 0);
+  }
+}
+
+TEST(DepthPreprocessor, DepthIsScaledAndCorrectedByTheOffsets) {
+  PreprocessingParameters parameters;
+  parameters.depth_scale = 1.02f;
+  parameters.depth_offsets_per_m = "3 2 0.02 -0.01 0.03 0 0.05 -0.04";
+  const cv::Mat grid = parseDepthOffsets(parameters.depth_offsets_per_m);
+  for (const int type : {CV_16UC1, CV_32FC1}) {
+    const CameraIntrinsics camera = cameraOfSize(49, 38);
+    const cv::Mat offsets = spreadOffsets(grid, {camera.width, camera.height});
+    cv::Mat input(camera.height, camera.width, type);
+    cv::RNG(5).fill(input, cv::RNG::UNIFORM, 0, type == CV_16UC1 ? 8000 : 8);
+    const double unit_m = type == CV_16UC1 ? 0.001 : 1.0;
+    DepthPreprocessor preprocessor(compute(), {}, camera);
+    preprocessor.setParameters(parameters, {});
+    const cv::Mat depth = readImage(preprocessor.process(frameOf(input, unit_m)).raw_depth, camera, 1);
+    reference::forEachPixel<float>(cv::Mat(depth), [&](int x, int y, float& corrected) {
+      const double value = type == CV_16UC1 ? input.at<uint16_t>(y, x) : input.at<float>(y, x);
+      const double scaled_m = 1.02 * value * unit_m;
+      const double expected_m = scaled_m / (1.0 + scaled_m * offsets.at<float>(y, x));
+      if (corrected == 0.0f) {
+        ASSERT_TRUE(expected_m < parameters.min_range_m + 1e-5 || expected_m > parameters.max_range_m - 1e-5) << x << " " << y;
+      } else {
+        ASSERT_NEAR(corrected, expected_m, 1e-5) << x << " " << y;
+      }
+    });
+    EXPECT_EQ(nonzeroPadding(preprocessor.process(frameOf(input, unit_m)).raw_depth, camera, 1), 0);
   }
 }
 

@@ -98,6 +98,10 @@ TEST_F(EveryKernel, OfPreprocessing) {
   RgbdFrame frame = roomFrame(0);
   frame.weights = cv::Mat(frame.depth.size(), CV_32FC1, cv::Scalar(0.5));
   preprocessor.process(frame, someVelocity());
+  PreprocessingParameters corrected = smallParameters().preprocessing;
+  corrected.depth_offsets_per_m = "2 2 0.01 0.01 0.01 0.01";
+  preprocessor.setParameters(corrected, {});
+  preprocessor.process(frame);
   frame.depth.convertTo(frame.depth, CV_16UC1, 1000.0);
   frame.depth_unit_m = 0.001;
   frame.weights = cv::Mat();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "depth_fusion/common/parameters.h"
@@ -16,6 +17,8 @@ namespace depth_fusion {
 struct PreprocessingParameters {
   float min_range_m = 0.3f;
   float max_range_m = 5.0f;
+  float depth_scale = 1.0f;
+  std::string depth_offsets_per_m;  // parseDepthOffsets reads it
   float readout_s = 0.0f;
   float stamp_delay_s = 0.0f;
   float bilateral_sigma_px = 1.5f;
@@ -69,6 +72,7 @@ class DepthPreprocessor {
   struct Kernels;
 
   void uploadWeights(const cv::Mat& weights);
+  void uploadOffsets();
 
   ComputeContext& compute_;
   PreprocessingParameters parameters_;  // with the range that the sensor's noise allows
@@ -76,6 +80,7 @@ class DepthPreprocessor {
   DeviceBuffer input_;
   DeviceBuffer skewed_depth_;
   DeviceBuffer weights_;  // empty until a frame has some
+  DeviceBuffer offsets_;  // of the inverse depth; empty without a correction
   ResultPool<DepthFrame> results_;
   std::unique_ptr<Kernels> kernels_;
 };

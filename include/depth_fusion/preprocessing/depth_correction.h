@@ -1,0 +1,31 @@
+// The systematic error of a depth sensor whose inverse depth is off by an amount that depends on the pixel:
+// what a disparity that is off by a fraction of a pixel does (structured light, stereo).
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+#include <string>
+
+namespace depth_fusion {
+
+// Offsets of the inverse depth (1/m), CV_32FC1, on a grid whose corners are those of the image, bilinear
+// between: the depth z becomes z / (1 + z offset).
+
+// Four entries of a grid, by their index row by row, and their parts.
+struct GridPlace {
+  std::array<int, 4> indices;
+  std::array<double, 4> parts;
+};
+
+// Where the pixel (x, y) of an image of that size lies on a grid of columns x rows, two at least each.
+GridPlace placeOnGrid(double x, double y, cv::Size image, cv::Size grid);
+
+// The offset at every pixel.
+cv::Mat spreadOffsets(const cv::Mat& grid, cv::Size image);
+
+// "columns rows offset offset ...", row by row; an empty text is an empty grid. Throws Error for any other
+// text.
+cv::Mat parseDepthOffsets(const std::string& text);
+std::string depthOffsetsText(const cv::Mat& grid);
+
+}  // namespace depth_fusion

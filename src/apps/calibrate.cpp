@@ -1,0 +1,153 @@
+// Measures the systematic errors of a depth sensor from a recording of an ordinary scene.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+#include "apps/calibrate/report.h"
+#include "apps/calibrate/tracked_recording.h"
+#include "depth_fusion/calibration/depth_scale.h"
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/preprocessing/depth_correction.h"
+#include "depth_fusion/recording/trajectory_file.h"
+#include "ros/recording.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr char kDescription[] =
+    "Measures what is wrong with a depth sensor, without a target: depth offsets over the image, the rolling "
+    "shutter's\n"
+    "readout, the time between depth and colour; with --trajectory or --distance the depth's scale, too. "
+    "Move the sensor\n"
+    "about a room for 10 to 30 s, half a metre each way, near and far, and let it see walls, floor and "
+    "tables.\n"
+    "Writes calibration.yaml (for --params of reconstruct, and params:= of the launch files), "
+    "calibration.png and\n"
+    "report.json. The calibration is for images as they are read here: with the same --camera.\n\n"
+    "Examples:\n"
+    "  calibrate --input room.bag --output calibrated\n"
+    "  reconstruct --input desk.bag --output out --params calibrated/calibration.yaml\n";
+
+// Below so many standard deviations from 0, a readout is that of a global shutter.
+constexpr double kReadoutSigmas = 3.0;
+
+struct Options {
+  std::string input, output, camera_file, trajectory_file, device;
+  std::vector<std::string> parameter_files;
+  std::vector<double> intrinsics;
+  RecordingOptions recording;
+  PipelineParameters parameters;
+  TrackingRange range;
+  Estimate distance_m{0.0, 0.005};
+};
+
+void addOptions(CLI::App& app, Options& options) {
+  app.add_option("--input", options.input, "recording: a folder or a .bag file, as of reconstruct")
+      ->required();
+  app.add_option("--output", options.output, "folder for the results; made if missing")->required();
+  app.add_option("--params", options.parameter_files, "YAML files of parameters, as of reconstruct");
+  app.add_option("--camera", options.camera_file,
+                 "camera file in place of the recording's, as of reconstruct");
+  app.add_option("--intrinsics", options.intrinsics,
+                 "fx,fy,cx,cy of the depth camera, instead of the recording's")
+      ->delimiter(',')
+      ->expected(4);
+  app.add_option(
+      "--trajectory", options.trajectory_file,
+      "true poses (TUM format, or a folder that holds them): the depth's scale, and its stamps' delay");
+  app.add_option("--distance", options.distance_m.value,
+                 "metres, straight, from where the sensor is in the first frame to where it is in the last: "
+                 "the depth's scale");
+  app.add_option("--distance-sigma", options.distance_m.sigma, "how exact that distance is, metres")
+      ->capture_default_str();
+  app.add_option("--first-frame", options.range.first, "leave out the frames before")->capture_default_str();
+  app.add_option("--max-frames", options.range.count, "stop after so many frames; 0: at the end")
+      ->capture_default_str();
+  app.add_option("--device", options.device, "OpenCL device, as of reconstruct");
+  app.add_option("--depth-topic", options.recording.depth_topic, "of a bag, instead of the one found");
+  app.add_option("--color-topic", options.recording.color_topic, "of a bag, instead of the one found");
+}
+
+void findScale(const Options& options, const TrackedRecording& tracked, const Trajectory& truth,
+               CalibrationReport& report) {
+  if (!truth.empty()) {
+    report.poses = findTimeOffset(motionsOf(tracked.trajectory), truth);
+    report.scale = scaleAgainst(tracked.trajectory, truth);
+  } else if (options.distance_m.value > 0.0) {
+    report.scale = scaleAgainst(tracked.trajectory, options.distance_m);
+  }
+  if (report.scale) {
+    // The offsets belong to the depth before it is scaled.
+    report.corrected.depth_scale *= static_cast<float>(report.scale->value);
+    report.corrected.depth_offsets_per_m = depthOffsetsText(report.depth.offsets_per_m / report.scale->value);
+  }
+  if (report.poses && report.poses->found) {
+    report.corrected.stamp_delay_s -= static_cast<float>(report.poses->offset_s.value);
+  }
+}
+
+void correct(const DepthCalibration& depth, PreprocessingParameters& parameters) {
+  parameters.depth_offsets_per_m = depthOffsetsText(depth.offsets_per_m);
+  if (!depth.readout_observed) return;
+  const Estimate& readout = depth.readout_s;
+  parameters.readout_s =
+      readout.value > kReadoutSigmas * readout.sigma ? static_cast<float>(readout.value) : 0.0f;
+}
+
+void calibrate(Options& options) {
+  ComputeContext compute(options.device);
+  const auto open = [&] { return openRecording(options.input, options.recording); };
+  std::cout << "input: " << open()->description() << std::endl;
+  const Trajectory truth =
+      options.trajectory_file.empty() ? Trajectory() : readPoses(options.trajectory_file);
+  std::filesystem::create_directories(options.output);
+
+  CalibrationReport report;
+  report.input = options.input;
+  options.parameters.preprocessing.depth_offsets_per_m.clear();
+  TrackedRecording tracked = track(compute, *open(), options.parameters, options.range);
+  report.depth = calibrateDepth(compute, options.parameters, tracked.frames);
+  report.frames_used = tracked.frames.size();
+  correct(report.depth, options.parameters.preprocessing);
+
+  // Times and scale are those of poses that the corrected depth gives.
+  tracked = track(compute, *open(), options.parameters, options.range);
+  report.frames_read = tracked.read;
+  report.frames_tracked = tracked.trajectory.size();
+  report.color = findTimeOffset(tracked.color_motions, tracked.trajectory);
+  if (!tracked.color_problem.empty() && !report.color.found)
+    report.color.reason += " (" + tracked.color_problem + ")";
+  report.corrected = options.parameters.preprocessing;
+  findScale(options, tracked, truth, report);
+  writeCalibration(options.output, report);
+  std::cout << reportText(report) << "written: " << options.output
+            << "/calibration.yaml, calibration.png, report.json" << std::endl;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(kDescription);
+  Options options;
+  addOptions(app, options);
+  CLI11_PARSE(app, argc, argv);
+  for (const std::string& file : options.parameter_files) loadParameterFile(options.parameters.table(), file);
+  if (!options.camera_file.empty()) readCamera(options.camera_file, options.recording);
+  if (!options.intrinsics.empty()) {
+    const std::vector<double>& given = options.intrinsics;
+    options.recording.intrinsics = CameraIntrinsics{0, 0, given[0], given[1], given[2], given[3]};
+  }
+  calibrate(options);
+  return 0;
+}
+
+}  // namespace
+}  // namespace depth_fusion
+
+int main(int argc, char** argv) {
+  try {
+    return depth_fusion::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "calibrate: " << error.what() << std::endl;
+    return 1;
+  }
+}

@@ -1,0 +1,120 @@
+#include "apps/calibrate/report.h"
+
+#include <cstdarg>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "depth_fusion/calibration/calibration_picture.h"
+#include "depth_fusion/common/error.h"
+#include "recording/text_file.h"
+
+namespace depth_fusion {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+__attribute__((format(printf, 1, 2))) std::string line(const char* format, ...) {
+  char text[500];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof(text), format, arguments);
+  va_end(arguments);
+  return std::string(text) + "\n";
+}
+
+std::string depthText(const DepthCalibration& depth) {
+  double least = 0.0, largest = 0.0;
+  cv::minMaxLoc(depth.offsets_per_m, &least, &largest);
+  const int total = static_cast<int>(depth.offsets_per_m.total());
+  std::string text =
+      line("depth offsets: %+.1f to %+.1f mm at 1 m, give or take %.1f; %d of %d are determined", 1e3 * least,
+           1e3 * largest, 1e3 * cv::mean(depth.sigmas_per_m)[0], depth.observed_offsets, total);
+  text += depth.planes > 0 ? line("  planes are flat to %.1f mm RMS at 1 m before, to %.1f after",
+                                  1e3 * depth.before.rms_per_m, 1e3 * depth.after.rms_per_m)
+                           : line("  no plane was seen");
+  const Estimate& readout = depth.readout_s;
+  text += depth.readout_observed
+              ? line("readout: %.1f +- %.1f ms from the first row to the last", 1e3 * readout.value,
+                     1e3 * readout.sigma)
+              : line("readout: not known (+- %.0f ms), the sensor moves too slowly; left as it is",
+                     1e3 * readout.sigma);
+  return text;
+}
+
+std::string timeText(const CalibrationReport& report) {
+  const TimeOffset& color = report.color;
+  std::string text = color.found ? line("colour: taken at its stamp %+.1f +- %.1f ms, by the depth's clock",
+                                        1e3 * color.offset_s.value, 1e3 * color.offset_s.sigma)
+                                 : line("colour: time offset not known: %s", color.reason.c_str());
+  if (!report.poses) return text + line("depth's stamps against poses: not known without --trajectory");
+  const TimeOffset& poses = *report.poses;
+  return text + (poses.found
+                     ? line("depth: taken at its stamp %+.1f +- %.1f ms, by the trajectory's clock",
+                            1e3 * poses.offset_s.value, 1e3 * poses.offset_s.sigma)
+                     : line("depth: time offset to the trajectory not known: %s", poses.reason.c_str()));
+}
+
+std::string scaleText(const CalibrationReport& report) {
+  if (!report.scale) {
+    return line(
+        "depth scale: not known: no depth camera can tell it without a length from outside; give "
+        "--trajectory or "
+        "--distance");
+  }
+  return line("depth scale: %.4f +- %.4f", report.scale->value, report.scale->sigma);
+}
+
+Json toJson(const Estimate& estimate) { return {{"value", estimate.value}, {"sigma", estimate.sigma}}; }
+
+Json toJson(const TimeOffset& offset) {
+  if (offset.found) return toJson(offset.offset_s);
+  return {{"unknown", offset.reason}};
+}
+
+Json toJson(const cv::Mat& grid) { return std::vector<float>(grid.begin<float>(), grid.end<float>()); }
+
+Json toJson(const CalibrationReport& report) {
+  const DepthCalibration& depth = report.depth;
+  Json json = {
+      {"input", report.input},
+      {"frames",
+       {{"read", report.frames_read}, {"tracked", report.frames_tracked}, {"used", report.frames_used}}},
+      {"pairs", depth.pairs},
+      {"planes", depth.planes},
+      {"offsets_per_m", toJson(depth.offsets_per_m)},
+      {"offset_sigmas_per_m", toJson(depth.sigmas_per_m)},
+      {"observed_offsets", depth.observed_offsets},
+      {"flatness_per_m", {{"before", depth.before.rms_per_m}, {"after", depth.after.rms_per_m}}},
+      {"readout_s", toJson(depth.readout_s)},
+      {"color_offset_s", toJson(report.color)}};
+  if (report.poses) json["pose_offset_s"] = toJson(*report.poses);
+  if (report.scale) json["depth_scale"] = toJson(*report.scale);
+  return json;
+}
+
+}  // namespace
+
+std::string reportText(const CalibrationReport& report) {
+  return line("%zu frames read, %zu tracked, %zu used: %d pairs that see the same, %d planes",
+              report.frames_read, report.frames_tracked, report.frames_used, report.depth.pairs,
+              report.depth.planes) +
+         depthText(report.depth) + timeText(report) + scaleText(report);
+}
+
+void writeCalibration(const std::string& folder, const CalibrationReport& report) {
+  std::string yaml =
+      "# The depth of the sensor of " + report.input + ", by calibrate; for its images as they are there.\n";
+  yaml += "preprocessing:\n";
+  PreprocessingParameters corrected = report.corrected;
+  const ParameterTable table = corrected.table();
+  for (const std::string name : {"depth_scale", "depth_offsets_per_m", "readout_s", "stamp_delay_s"}) {
+    yaml += "  " + name + ": " + valueText(findParameter(table, name)) + "\n";
+  }
+  writeText(folder + "/calibration.yaml", yaml);
+  writeText(folder + "/report.json", toJson(report).dump(2) + "\n");
+  const std::string picture = folder + "/calibration.png";
+  check(cv::imwrite(picture, drawCalibration(report.depth)), picture + ": cannot be written");
+}
+
+}  // namespace depth_fusion
