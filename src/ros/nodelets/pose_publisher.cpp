@@ -59,8 +59,8 @@ void PosePublisher::followRoot(const std::string& camera_frame) {
   if (root == root_) return;
   ROS_WARN(
       "the camera's tree on tf has changed: %s at the top, no longer %s; the map stays as it began. Who "
-      "listened before may "
-      "know %s -> %s still; give odom_frame or base_frame to be sure from the start",
+      "listened "
+      "before may know %s -> %s still; give odom_frame or base_frame to be sure from the start",
       root.frame.c_str(), root_.frame.c_str(), parameters_.map_frame.c_str(), root_.frame.c_str());
   takeRoot(root);
 }
@@ -71,8 +71,8 @@ void PosePublisher::takeRoot(const CameraTree::Root& root) {
   if (!root.in_map) return tree_.leaveOut(root.frame);
   ROS_ERROR(
       "somebody else publishes %s -> %s on tf; the tracker's poses go out as messages only. Let it map at "
-      "those poses "
-      "(tracking: external), or choose another map_frame",
+      "those "
+      "poses (tracking: external), or choose another map_frame",
       parameters_.map_frame.c_str(), root.frame.c_str());
 }
 

@@ -26,12 +26,14 @@ void StageNodelet::loadParameters(const ParameterTable& own,
     parameter_groups_.push_back({name, ros::NodeHandle(getMTNodeHandle(), name), table});
   }
   default_parameters_ = makeConfig(parameter_groups_);
-  for (const ParameterGroup& group : parameter_groups_) depth_fusion::loadParameters(group.handle, group.table);
+  for (const ParameterGroup& group : parameter_groups_)
+    depth_fusion::loadParameters(group.handle, group.table);
   applyParameters();
 }
 
 Parameter StageNodelet::deviceRow(std::string& device) {
-  return {"device", &device, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best", {}, true};
+  return {"device", &device, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best",
+          {},       true};
 }
 
 Parameter StageNodelet::queueSizeRow(int& frames) {
@@ -50,11 +52,12 @@ void StageNodelet::startReporting() {
   updater_ = std::make_unique<diagnostic_updater::Updater>(getMTNodeHandle(), handle, getName());
   updater_->setHardwareID("none");
   updater_->add("frames", this, &StageNodelet::diagnoseFrames);
-  report_timer_ =
-      handle.createWallTimer(ros::WallDuration(kReportPeriod_s), [this](const ros::WallTimerEvent&) { report(); });
+  report_timer_ = handle.createWallTimer(ros::WallDuration(kReportPeriod_s),
+                                         [this](const ros::WallTimerEvent&) { report(); });
   reconfigure_server_ = std::make_unique<ReconfigureServer>(
       parameter_groups_, default_parameters_,
-      ReconfigureServer::Nodelet{getName(), [this](const ReconfigureServer::Action& action) { betweenFrames(action); },
+      ReconfigureServer::Nodelet{getName(),
+                                 [this](const ReconfigureServer::Action& action) { betweenFrames(action); },
                                  [this] { applyParameters(); }});
 }
 
@@ -100,7 +103,8 @@ void StageNodelet::diagnoseFrames(diagnostic_updater::DiagnosticStatusWrapper& s
   last_processed_ = account.processed;
   status.add("frames received", account.received);
   status.add("frames processed", account.processed);
-  for (size_t i = 0; i < account.reasons.size(); ++i) status.add("dropped: " + account.reasons[i], account.dropped[i]);
+  for (size_t i = 0; i < account.reasons.size(); ++i)
+    status.add("dropped: " + account.reasons[i], account.dropped[i]);
   for (size_t i = 0; i < last_timings_.stages.size(); ++i)
     status.addf(last_timings_.stages[i] + " ms", "%.2f median, %.2f p95", last_timings_.median_ms[i],
                 last_timings_.p95_ms[i]);

@@ -1,4 +1,5 @@
-// What the nodelets have in common: parameters, topics between them, the account of their frames, stage timings, diagnostics.
+// What the nodelets have in common: parameters, topics between them, the account of their frames, stage
+// timings, diagnostics.
 #pragma once
 
 #include <depth_fusion/StageTimings.h>
@@ -19,8 +20,8 @@
 
 namespace depth_fusion {
 
-// Length of the queues of topics between nodelets, which never fill: their callbacks only hand on what comes. Frames wait, and are
-// dropped and counted, in a nodelet's own queue of `queue_size`.
+// Length of the queues of topics between nodelets, which never fill: their callbacks only hand on what comes.
+// Frames wait, and are dropped and counted, in a nodelet's own queue of `queue_size`.
 constexpr uint32_t kProcessQueue = 100;
 
 class StageNodelet : public nodelet::Nodelet {
@@ -34,8 +35,9 @@ class StageNodelet : public nodelet::Nodelet {
   // Sets level and summary, and adds values. Called once a second.
   virtual void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) = 0;
 
-  // Fills the rows from the parameter server: the nodelet's own from its private namespace, those of the stages, which it may
-  // share with other nodelets, from the namespaces beside. Throws Error for what is unknown or does not fit.
+  // Fills the rows from the parameter server: the nodelet's own from its private namespace, those of the
+  // stages, which it may share with other nodelets, from the namespaces beside. Throws Error for what is
+  // unknown or does not fit.
   void loadParameters(const ParameterTable& own,
                       const std::vector<std::pair<std::string, ParameterTable>>& stages = {});
 
@@ -43,12 +45,14 @@ class StageNodelet : public nodelet::Nodelet {
   static Parameter deviceRow(std::string& device);
   static Parameter queueSizeRow(int& frames);
 
-  // Subscribes what the nodelet `sender` of the same process publishes, frames or something else. What comes from another process
-  // has no payload, so it is not taken: an error says what to do, and frames are counted as dropped.
+  // Subscribes what the nodelet `sender` of the same process publishes, frames or something else. What comes
+  // from another process has no payload, so it is not taken: an error says what to do, and frames are counted
+  // as dropped.
   enum class Carries { kFrames, kOther };
   template <class Payload>
-  ros::Subscriber subscribeInProcess(const std::string& topic, const std::string& sender, Carries what,
-                                     std::function<void(const boost::shared_ptr<const ProcessMessage<Payload>>&)> take);
+  ros::Subscriber subscribeInProcess(
+      const std::string& topic, const std::string& sender, Carries what,
+      std::function<void(const boost::shared_ptr<const ProcessMessage<Payload>>&)> take);
 
   // The last thing of start(): from here on diagnostics and timings go out, and parameters may change.
   void startReporting();
@@ -72,7 +76,7 @@ class StageNodelet : public nodelet::Nodelet {
   std::unique_ptr<ReconfigureServer> reconfigure_server_;
 
   std::mutex timers_mutex_;
-  StageTimers timers_;        // since the last report
+  StageTimers timers_;  // since the last report
   StageTimings last_timings_;
   ros::Publisher timings_publisher_;
   std::unique_ptr<diagnostic_updater::Updater> updater_;
