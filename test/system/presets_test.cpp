@@ -84,9 +84,9 @@ TEST_P(Presets, MapTheRoom) {
   const double ate_m = compareTrajectories(estimate, truth).ate_m.rmse;
   std::printf("ATE %.2f mm, %.1f m^2 of mesh: mean %.2f mm, 95 %% %.2f mm\n", 1e3 * ate_m, error.area_m2,
               1e3 * error.surface_m.mean, 1e3 * error.surface_m.percentile95);
-  EXPECT_LT(ate_m, 0.010);
+  EXPECT_LT(ate_m, 0.005);
   EXPECT_GT(error.area_m2, 3.0);
-  EXPECT_LT(error.surface_m.mean, 0.006);
+  EXPECT_LT(error.surface_m.mean, 0.004);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cfg, Presets, testing::ValuesIn(presets()),
