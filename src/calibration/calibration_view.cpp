@@ -19,8 +19,8 @@ CalibrationView::CalibrationView(DepthPreprocessor& preprocessor, const Calibrat
   const DepthLevel& level = preprocessor.process(frame.frame, frame.velocity).levels[kLevel];
   camera_ = level.camera;
   sensor_ = level.sensor;
-  depth_m_ = readImage(level.depth, camera_, 1);
-  normals_ = readImage(level.normals, camera_, 3);
+  depth_m_ = readImage(level.depth, camera_);
+  normals_ = readNormals(level.normals, camera_);
 }
 
 std::optional<ViewPoint> CalibrationView::at(int x, int y) const {

@@ -1,7 +1,10 @@
 #include "depth_fusion/compute/device_image.h"
 
+#include <cstring>
+
 #include "depth_fusion/common/error.h"
 #include "geometry/kernel_args.h"
+#include "geometry/packed_normal.h"
 
 namespace depth_fusion {
 namespace {
@@ -23,6 +26,19 @@ DeviceBuffer zeroImage(ComputeContext& compute, const CameraIntrinsics& camera) 
 cv::Mat readImage(const DeviceBuffer& image, const CameraIntrinsics& camera) {
   std::vector<float> elements = image.read<float>(imageElements(camera));
   return pixelView(elements, camera).clone();
+}
+
+cv::Mat readNormals(const DeviceBuffer& image, const CameraIntrinsics& camera) {
+  const cv::Mat words = readImage(image, camera);
+  cv::Mat normals(words.size(), CV_32FC3);
+  for (int y = 0; y < words.rows; ++y) {
+    for (int x = 0; x < words.cols; ++x) {
+      uint32_t word = 0;
+      std::memcpy(&word, words.ptr<float>(y, x), sizeof(word));
+      normals.at<cv::Vec3f>(y, x) = unpackedNormal(word);
+    }
+  }
+  return normals;
 }
 
 void writeImage(DeviceBuffer& image, const CameraIntrinsics& camera, const cv::Mat& pixels) {

@@ -14,6 +14,9 @@ DeviceBuffer zeroImage(ComputeContext& compute, const CameraIntrinsics& camera);
 // The image as CV_32FC1; words are their bits.
 cv::Mat readImage(const DeviceBuffer& image, const CameraIntrinsics& camera);
 
+// An image of packed normals as CV_32FC3; 0 = none.
+cv::Mat readNormals(const DeviceBuffer& image, const CameraIntrinsics& camera);
+
 // Copies a CV_32FC1 image of the camera's size to the device.
 void writeImage(DeviceBuffer& image, const CameraIntrinsics& camera, const cv::Mat& pixels);
 
