@@ -153,7 +153,7 @@ void DepthPreprocessor::uploadOffsets() {
   const cv::Mat grid = parseDepthOffsets(parameters_.depth_offsets_per_m);
   if (grid.empty()) return;
   const CameraIntrinsics& camera = results_.current()->levels[0].camera;
-  offsets_ = zeroImage(compute_, camera, 1);
+  offsets_ = zeroImage(compute_, camera);
   writeImage(offsets_, camera, spreadOffsets(grid, {camera.width, camera.height}));
 }
 

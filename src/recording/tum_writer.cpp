@@ -46,7 +46,7 @@ class TumWriter : public RecordingWriter {
 
   void finish() override {
     check(camera_.has_value(), folder_ + ": no frame was written to this recording");
-    writeCameraFile(folder_ + "/camera.yaml", {*camera_, 1.0 / depth_unit_m_, {}});
+    writeCameraFile(folder_ + "/camera.yaml", {*camera_, 1.0 / depth_unit_m_, {}, {}});
     if (!color_list_.empty()) writeText(folder_ + "/rgb.txt", "# timestamp filename\n" + color_list_);
     if (!groundtruth_.empty()) writeTrajectory(folder_ + "/groundtruth.txt", groundtruth_);
     writeText(folder_ + "/depth.txt", "# timestamp filename\n" + depth_list_);

@@ -17,10 +17,6 @@ namespace {
 
 constexpr double kMaxPoseGap_s = 0.1;
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 size_t offsetBytes(const PlanRow& row) { return mapBytes(row.map, 0); }
 
 // The rows [first, the result) whose offsets fit into the limit together, one at least.
