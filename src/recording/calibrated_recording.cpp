@@ -14,13 +14,14 @@ class CalibratedRecording : public Recording {
   std::optional<RgbdFrame> next() override {
     std::optional<RgbdFrame> frame = recording_->next();
     if (!frame) return frame;
-    if (options_.intrinsics) frame->distortion = options_.distortion;
+    if (options_.intrinsics) {
+      frame->distortion = options_.distortion;
+      if (!frame->color_intrinsics) frame->color_distortion = options_.distortion;
+    }
     if (options_.color_intrinsics) {
       frame->color_intrinsics = options_.color_intrinsics;
       frame->color_distortion = options_.color_distortion;
       frame->T_C_D = options_.T_C_D;
-    } else if (!frame->color_intrinsics) {
-      frame->color_distortion = frame->distortion;
     }
     return frame;
   }

@@ -61,7 +61,7 @@ class TumRecording : public Recording {
     frame.depth = readDepthImage(depth_file.path);
     frame.depth_unit_m = depth_unit_m_;
     frame.intrinsics = intrinsics_.camera;
-    frame.distortion = distortion_;
+    frame.distortion = frame.color_distortion = distortion_;
     checkDepthSize(frame.depth, frame.intrinsics, depth_file.path);
     const TimedFile* color_file = nearestFile(color_files_, depth_file.stamp_s, max_pairing_gap_s_);
     if (color_file == nullptr) return frame;

@@ -21,7 +21,7 @@ std::string withoutSlash(const std::string& frame) {
 // T_target_source by the bag's last word on it.
 std::optional<Pose> staticTransform(const rosbag::Bag& bag, const std::string& target,
                                     const std::string& source) {
-  tf2::BufferCore tf(ros::Duration(ros::DURATION_MAX));
+  tf2::BufferCore tf;
   rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
   for (const rosbag::MessageInstance& place : view) {
     for (geometry_msgs::TransformStamped transform :

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <fstream>
 #include <functional>
 
+#include "ros/messages.h"
 #include "ros/recording.h"
 #include "support/bag_messages.h"
 #include "support/expect_error.h"
@@ -223,6 +225,35 @@ TEST_F(BagRecordingTest, uses_the_projection_of_rectified_images) {
   const auto rectified = openBag(makeWith("/camera/depth/image_rect"), {})->next();
   EXPECT_EQ(rectified->intrinsics.fx, 11.0);
   EXPECT_TRUE(rectified->distortion.empty());
+}
+
+TEST_F(BagRecordingTest, finds_the_colour_camera_by_its_info_and_tf) {
+  const Pose T_C_D(Eigen::Translation3d(-0.025, 0.0, 0.0));
+  const auto makeWith = [&](const std::string& tf_parent) {
+    return makeBag([&](rosbag::Bag& bag) {
+      sensor_msgs::CameraInfo info = infoMessage(kTestWidth, kTestHeight, 10.0);
+      addToBag(bag, kDepthInfo, 1.0, info);
+      info.header.frame_id = "color_frame";
+      info.D = {0.1, 0.0, 0.0, 0.0, 0.0};
+      addToBag(bag, "/camera/rgb/camera_info", 1.0, info);
+      sensor_msgs::Image depth = imageMessage(randomDepth(1), "16UC1");
+      depth.header.frame_id = "depth_frame";
+      addToBag(bag, "/camera/depth/image_raw", 1.0, depth);
+      addToBag(bag, "/camera/rgb/image_raw", 1.0, imageMessage(randomColor(1), "bgr8"));
+      tf2_msgs::TFMessage tf;
+      tf.transforms.push_back(makeTransform(makeHeader(ros::Time(1.0), tf_parent), "depth_frame", T_C_D));
+      bag.write("/tf_static", ros::Time(1.0), tf);
+    });
+  };
+  const auto connected = openRecording(makeWith("color_frame"), {})->next();
+  ASSERT_TRUE(connected->T_C_D.has_value());
+  EXPECT_TRUE(connected->T_C_D->isApprox(T_C_D));
+  EXPECT_EQ(connected->color_distortion, (LensDistortion{0.1, 0.0, 0.0, 0.0, 0.0}));
+  EXPECT_TRUE(connected->distortion.empty());
+  EXPECT_FALSE(connected->color.empty());
+  const auto unconnected = openRecording(makeWith("somewhere"), {});
+  EXPECT_TRUE(unconnected->next()->color.empty());
+  EXPECT_NE(unconnected->description().find("color_frame"), std::string::npos) << unconnected->description();
 }
 
 TEST_F(BagRecordingTest, asks_for_missing_intrinsics_and_takes_given_ones) {

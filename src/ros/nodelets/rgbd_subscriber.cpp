@@ -183,8 +183,7 @@ Pose RgbdSubscriber::lookUpColorCamera(const std::string& color_frame, const std
   } catch (const tf2::TransformException&) {
     throw Error("depth is in the frame " + depth_frame + ", colour in " + color_frame +
                 ", and tf does not connect them; publish where the cameras are (rosrun tf2_ros "
-                "static_transform_publisher X "
-                "Y Z YAW PITCH ROLL " +
+                "static_transform_publisher X Y Z YAW PITCH ROLL " +
                 color_frame + " " + depth_frame + "), or let the driver register depth to colour");
   }
 }
