@@ -48,8 +48,7 @@ void drawScale(cv::Mat& picture) {
         .setTo(colorOf(2.0f * x / place.width - 1.0f, 1.0));
   }
   cv::rectangle(picture, place, kInk);
-  write(picture,
-        "blue: measured too near, red: too far, at 1 m (at 2 m four times as much); grey: no plane there",
+  write(picture, "blue: too near, red: too far, at 1 m (at 2 m four times that); grey: no plane",
         {place.br().x + 12, place.br().y - 2});
 }
 
@@ -75,14 +74,11 @@ cv::Mat drawCalibration(const DepthCalibration& calibration) {
   const double limit = limitOf(before.map_per_m), correction_limit = limitOf(correction);
   cv::Mat picture(kTitle_px + kPanel.height + kScale_px, 3 * kPanel.width + 4 * kMargin_px, CV_8UC3,
                   cv::Scalar::all(255));
-  drawPanel(picture, 0,
-            "planes before: " + millimetres(before.rms_per_m) + " RMS, colours +-" + millimetres(limit),
+  drawPanel(picture, 0, "planes before: " + millimetres(before.rms_per_m) + " RMS, +-" + millimetres(limit),
             before.map_per_m, limit);
-  drawPanel(picture, 1,
-            "planes after: " + millimetres(after.rms_per_m) + " RMS, colours +-" + millimetres(limit),
+  drawPanel(picture, 1, "planes after: " + millimetres(after.rms_per_m) + " RMS, +-" + millimetres(limit),
             after.map_per_m, limit);
-  drawPanel(picture, 2, "correction, colours +-" + millimetres(correction_limit), correction,
-            correction_limit);
+  drawPanel(picture, 2, "correction: +-" + millimetres(correction_limit), correction, correction_limit);
   drawScale(picture);
   return picture;
 }

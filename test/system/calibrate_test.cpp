@@ -31,9 +31,11 @@ void stampColorLater(const std::string& folder) {
   std::ofstream after(folder + "/rgb.txt");
   after.precision(6);
   after << std::fixed;
-  std::string file;
-  for (double stamp_s = 0.0; before >> stamp_s >> file;)
-    after << stamp_s - kColorOffset_s << " " << file << "\n";
+  for (std::string line; std::getline(before, line);) {
+    if (line[0] == '#') continue;
+    const size_t space = line.find(' ');
+    after << std::stod(line.substr(0, space)) - kColorOffset_s << line.substr(space) << "\n";
+  }
 }
 
 void writeSwayingRecording(const std::string& folder) {

@@ -107,8 +107,8 @@ TEST(DepthPreprocessor, DepthIsScaledAndCorrectedByTheOffsets) {
     const double unit_m = type == CV_16UC1 ? 0.001 : 1.0;
     DepthPreprocessor preprocessor(compute(), {}, camera);
     preprocessor.setParameters(parameters, {});
-    const cv::Mat depth = readImage(preprocessor.process(frameOf(input, unit_m)).raw_depth, camera, 1);
-    reference::forEachPixel<float>(cv::Mat(depth), [&](int x, int y, float& corrected) {
+    cv::Mat depth = readImage(preprocessor.process(frameOf(input, unit_m)).raw_depth, camera, 1);
+    reference::forEachPixel<float>(depth, [&](int x, int y, float& corrected) {
       const double value = type == CV_16UC1 ? input.at<uint16_t>(y, x) : input.at<float>(y, x);
       const double scaled_m = 1.02 * value * unit_m;
       const double expected_m = scaled_m / (1.0 + scaled_m * offsets.at<float>(y, x));
