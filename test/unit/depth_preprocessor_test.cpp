@@ -107,7 +107,7 @@ TEST(DepthPreprocessor, DepthIsScaledAndCorrectedByTheOffsets) {
     const double unit_m = type == CV_16UC1 ? 0.001 : 1.0;
     DepthPreprocessor preprocessor(compute(), {}, camera);
     preprocessor.setParameters(parameters, {});
-    cv::Mat depth = readImage(preprocessor.process(frameOf(input, unit_m)).raw_depth, camera, 1);
+    cv::Mat depth = readImage(preprocessor.process(frameOf(input, unit_m)).raw_depth, camera);
     reference::forEachPixel<float>(depth, [&](int x, int y, float& corrected) {
       const double value = type == CV_16UC1 ? input.at<uint16_t>(y, x) : input.at<float>(y, x);
       const double scaled_m = 1.02 * value * unit_m;
@@ -118,7 +118,7 @@ TEST(DepthPreprocessor, DepthIsScaledAndCorrectedByTheOffsets) {
         ASSERT_NEAR(corrected, expected_m, 1e-5) << x << " " << y;
       }
     });
-    EXPECT_EQ(nonzeroPadding(preprocessor.process(frameOf(input, unit_m)).raw_depth, camera, 1), 0);
+    EXPECT_EQ(nonzeroPadding(preprocessor.process(frameOf(input, unit_m)).raw_depth, camera), 0);
   }
 }
 
