@@ -16,7 +16,8 @@ constexpr double kDifference_s = 0.1;  // for the acceleration, whose noise fall
 constexpr double kNoiseCurvature = 3.0 * 0.27 / (kDifference_s * kDifference_s);
 constexpr double kMinCurvature = 3.0;  // times that of noise
 constexpr double kMaxOffset_s = 0.2;
-constexpr double kMaxSigma_s = 0.005;
+constexpr double kMaxSigma_s = 0.008;
+constexpr double kMethodSigma_s = 0.003;  // what the method itself is off by, found on simulated recordings
 constexpr double kCutoff_sigmas = 4.0;
 constexpr double kSigmasPerMedian = 0.65;  // of the length of three normal components
 constexpr size_t kMinMotions = 30;
@@ -78,7 +79,7 @@ Step stepOf(const std::vector<Difference>& differences) {
   curvature = std::max(curvature - noise, 0.5 * curvature);
   for (const double pull : pulls) step.offset_s += pull / curvature;
   for (const double pull : pulls) step.sigma_s += std::pow(pull / curvature - step.offset_s / kSegments, 2);
-  step.sigma_s = std::sqrt(step.sigma_s * kSegments / (kSegments - 1.0));
+  step.sigma_s = std::hypot(std::sqrt(step.sigma_s * kSegments / (kSegments - 1.0)), kMethodSigma_s);
   return step;
 }
 
