@@ -7,6 +7,7 @@
 #include "apps/calibrate/report.h"
 #include "apps/calibrate/tracked_recording.h"
 #include "depth_fusion/calibration/depth_scale.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
 #include "depth_fusion/recording/trajectory_file.h"
@@ -79,11 +80,11 @@ void findScale(const Options& options, const TrackedRecording& tracked, const Tr
   }
   if (report.scale) {
     // The offsets belong to the depth before it is scaled.
-    report.corrected.depth_scale *= static_cast<float>(report.scale->value);
-    report.corrected.depth_offsets_per_m = depthOffsetsText(report.depth.offsets_per_m / report.scale->value);
+    report.corrected.registration.depth_scale *= static_cast<float>(report.scale->value);
+    report.corrected.preprocessing.depth_offsets_per_m = depthOffsetsText(report.depth.offsets_per_m / report.scale->value);
   }
   if (report.poses && report.poses->found) {
-    report.corrected.stamp_delay_s -= static_cast<float>(report.poses->offset_s.value);
+    report.corrected.preprocessing.stamp_delay_s -= static_cast<float>(report.poses->offset_s.value);
   }
 }
 
@@ -97,7 +98,9 @@ void correct(const DepthCalibration& depth, PreprocessingParameters& parameters)
 
 void calibrate(Options& options) {
   ComputeContext compute(options.device);
-  const auto open = [&] { return openRecording(options.input, options.recording); };
+  const auto open = [&] {
+    return registered(openRecording(options.input, options.recording), compute, options.parameters.registration);
+  };
   std::cout << "input: " << open()->description() << std::endl;
   const Trajectory truth =
       options.trajectory_file.empty() ? Trajectory() : readPoses(options.trajectory_file);
@@ -118,7 +121,7 @@ void calibrate(Options& options) {
   report.color = findTimeOffset(tracked.color_motions, tracked.trajectory);
   if (!tracked.color_problem.empty() && !report.color.found)
     report.color.reason += " (" + tracked.color_problem + ")";
-  report.corrected = options.parameters.preprocessing;
+  report.corrected = options.parameters;
   findScale(options, tracked, truth, report);
   writeCalibration(options.output, report);
   std::cout << reportText(report) << "written: " << options.output

@@ -57,7 +57,6 @@ ParameterTable PreprocessingParameters::table() {
   return {
       {"min_range_m", &min_range_m, 0.0, 100.0, "nearer depth is left out"},
       {"max_range_m", &max_range_m, 0.01, 100.0, "farther depth is left out"},
-      {"depth_scale", &depth_scale, 0.5, 2.0, "factor on the depth, from a calibration against a known length"},
       {"depth_offsets_per_m", &depth_offsets_per_m, 0.0, 0.0,
        "columns, rows and, row by row over the image, what to add to the inverse depth (1/m), as calibrate writes it; "
        "empty: nothing"},
@@ -130,7 +129,7 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
   const bool compensates = !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);
   kernels_->depthToMetres(
       is_u16, input_, offsets_, compensates ? skewed_depth_ : result.raw_depth, camera,
-      {static_cast<float>(frame.depth_unit_m * parameters_.depth_scale), parameters_.min_range_m, parameters_.max_range_m});
+      {static_cast<float>(frame.depth_unit_m), parameters_.min_range_m, parameters_.max_range_m});
   if (compensates) {
     kernels_->compensateMotion(skewed_depth_, result.raw_depth, camera, sensorMotion(velocity, parameters_));
   }

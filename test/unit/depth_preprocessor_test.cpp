@@ -94,9 +94,8 @@ TEST(DepthPreprocessor, MetresOfIntegers) {
   }
 }
 
-TEST(DepthPreprocessor, DepthIsScaledAndCorrectedByTheOffsets) {
+TEST(DepthPreprocessor, DepthIsCorrectedByTheOffsets) {
   PreprocessingParameters parameters;
-  parameters.depth_scale = 1.02f;
   parameters.depth_offsets_per_m = "3 2 0.02 -0.01 0.03 0 0.05 -0.04";
   const cv::Mat grid = parseDepthOffsets(parameters.depth_offsets_per_m);
   for (const int type : {CV_16UC1, CV_32FC1}) {
@@ -110,8 +109,8 @@ TEST(DepthPreprocessor, DepthIsScaledAndCorrectedByTheOffsets) {
     cv::Mat depth = readImage(preprocessor.process(frameOf(input, unit_m)).raw_depth, camera);
     reference::forEachPixel<float>(depth, [&](int x, int y, float& corrected) {
       const double value = type == CV_16UC1 ? input.at<uint16_t>(y, x) : input.at<float>(y, x);
-      const double scaled_m = 1.02 * value * unit_m;
-      const double expected_m = scaled_m / (1.0 + scaled_m * offsets.at<float>(y, x));
+      const double measured_m = value * unit_m;
+      const double expected_m = measured_m / (1.0 + measured_m * offsets.at<float>(y, x));
       if (corrected == 0.0f) {
         ASSERT_TRUE(expected_m < parameters.min_range_m + 1e-5 || expected_m > parameters.max_range_m - 1e-5) << x << " " << y;
       } else {

@@ -17,7 +17,6 @@ namespace depth_fusion {
 struct PreprocessingParameters {
   float min_range_m = 0.3f;
   float max_range_m = 5.0f;
-  float depth_scale = 1.0f;
   std::string depth_offsets_per_m;  // parseDepthOffsets reads it
   float readout_s = 0.0f;
   float stamp_delay_s = 0.0f;

@@ -105,12 +105,13 @@ std::string reportText(const CalibrationReport& report) {
 void writeCalibration(const std::string& folder, const CalibrationReport& report) {
   std::string yaml =
       "# The depth of the sensor of " + report.input + ", by calibrate; for its images as they are there.\n";
-  yaml += "preprocessing:\n";
-  PreprocessingParameters corrected = report.corrected;
+  PipelineParameters corrected = report.corrected;
   const ParameterTable table = corrected.table();
-  for (const std::string name : {"depth_scale", "depth_offsets_per_m", "readout_s", "stamp_delay_s"}) {
-    yaml += "  " + name + ": " + valueText(findParameter(table, name)) + "\n";
-  }
+  const auto line = [&](const std::string& stage, const std::string& name) {
+    return "  " + name + ": " + valueText(findParameter(table, stage + "/" + name)) + "\n";
+  };
+  yaml += "registration:\n" + line("registration", "depth_scale") + "preprocessing:\n";
+  for (const std::string name : {"depth_offsets_per_m", "readout_s", "stamp_delay_s"}) yaml += line("preprocessing", name);
   writeText(folder + "/calibration.yaml", yaml);
   writeText(folder + "/report.json", toJson(report).dump(2) + "\n");
   const std::string picture = folder + "/calibration.png";

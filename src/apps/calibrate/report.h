@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "depth_fusion/calibration/time_offset.h"
+#include "depth_fusion/pipeline/pipeline_parameters.h"
 
 namespace depth_fusion {
 
@@ -13,10 +14,10 @@ struct CalibrationReport {
   std::string input;
   size_t frames_read = 0, frames_tracked = 0, frames_used = 0;
   DepthCalibration depth;
-  TimeOffset color;                   // of the colour's stamps against the depth's
-  std::optional<TimeOffset> poses;    // of the depth's stamps against the given trajectory's
-  std::optional<Estimate> scale;      // against the trajectory or the distance
-  PreprocessingParameters corrected;  // the parameters with all that was found
+  TimeOffset color;                 // of the colour's stamps against the depth's
+  std::optional<TimeOffset> poses;  // of the depth's stamps against the given trajectory's
+  std::optional<Estimate> scale;    // against the trajectory or the distance
+  PipelineParameters corrected;     // the parameters with all that was found
 };
 
 // For the terminal: what was found, how sure it is, and what is not known and why.
