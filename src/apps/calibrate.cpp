@@ -7,10 +7,10 @@
 #include "apps/calibrate/report.h"
 #include "apps/calibrate/tracked_recording.h"
 #include "depth_fusion/calibration/depth_scale.h"
-#include "depth_fusion/registration/frame_registration.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
 #include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "ros/recording.h"
 
 namespace depth_fusion {
@@ -81,7 +81,8 @@ void findScale(const Options& options, const TrackedRecording& tracked, const Tr
   if (report.scale) {
     // The offsets belong to the depth before it is scaled.
     report.corrected.registration.depth_scale *= static_cast<float>(report.scale->value);
-    report.corrected.preprocessing.depth_offsets_per_m = depthOffsetsText(report.depth.offsets_per_m / report.scale->value);
+    report.corrected.preprocessing.depth_offsets_per_m =
+        depthOffsetsText(report.depth.offsets_per_m / report.scale->value);
   }
   if (report.poses && report.poses->found) {
     report.corrected.preprocessing.stamp_delay_s -= static_cast<float>(report.poses->offset_s.value);
@@ -99,7 +100,8 @@ void correct(const DepthCalibration& depth, PreprocessingParameters& parameters)
 void calibrate(Options& options) {
   ComputeContext compute(options.device);
   const auto open = [&] {
-    return registered(openRecording(options.input, options.recording), compute, options.parameters.registration);
+    return registered(openRecording(options.input, options.recording), compute,
+                      options.parameters.registration);
   };
   std::cout << "input: " << open()->description() << std::endl;
   const Trajectory truth =

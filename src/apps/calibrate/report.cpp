@@ -111,7 +111,8 @@ void writeCalibration(const std::string& folder, const CalibrationReport& report
     return "  " + name + ": " + valueText(findParameter(table, stage + "/" + name)) + "\n";
   };
   yaml += "registration:\n" + line("registration", "depth_scale") + "preprocessing:\n";
-  for (const std::string name : {"depth_offsets_per_m", "readout_s", "stamp_delay_s"}) yaml += line("preprocessing", name);
+  for (const std::string name : {"depth_offsets_per_m", "readout_s", "stamp_delay_s"})
+    yaml += line("preprocessing", name);
   writeText(folder + "/calibration.yaml", yaml);
   writeText(folder + "/report.json", toJson(report).dump(2) + "\n");
   const std::string picture = folder + "/calibration.png";
