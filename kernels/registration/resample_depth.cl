@@ -34,8 +34,8 @@ inline vfloat depth_along(vfloat x, vfloat y, __global const float* depth, const
   const vfloat fu = u - u0, fv = v - v0;
   const vint column = select((vint)(0), TO_VINT(u0), inside);  // -1 and the width lie in the image's margin
   const vint row = select((vint)(0), TO_VINT(v0), inside);
-  const vint upper = pixel_indices(column, max(row, 0), camera);
-  const vint lower = pixel_indices(column, min(row + 1, camera.height - 1), camera);
+  const vint upper = pixel_indices(column, max(row, (vint)(0)), camera);
+  const vint lower = pixel_indices(column, min(row + 1, (vint)(camera.height - 1)), camera);
   const vfloat z00 = GATHER(vfloat, depth, upper), z10 = GATHER(vfloat, depth, upper + 1);
   const vfloat z01 = GATHER(vfloat, depth, lower), z11 = GATHER(vfloat, depth, lower + 1);
   const vfloat nearest = select(select(z00, z10, fu >= 0.5f), select(z01, z11, fu >= 0.5f), fv >= 0.5f);
