@@ -42,12 +42,15 @@ TrackingResult FrameTracker::track(const RgbdFrame& frame, const MotionPrior& pr
 }
 
 void FrameTracker::accept(const RgbdFrame& frame, const FrameFeatures& features, const Pose& T_W_D) {
-  velocity_.setZero();
-  if (tracked_)
-    velocity_ = velocityOver(tracked_->T_W_D.inverse() * T_W_D, frame.stamp_s - tracked_->stamp_s);
-  tracked_ = {frame.stamp_s, T_W_D};
-  T_W_expected_ = T_W_D;
+  follow(frame.stamp_s, T_W_D);
   relocaliser_.add(features, T_W_D);
+}
+
+void FrameTracker::follow(double stamp_s, const Pose& T_W_D) {
+  velocity_.setZero();
+  if (tracked_) velocity_ = velocityOver(tracked_->T_W_D.inverse() * T_W_D, stamp_s - tracked_->stamp_s);
+  tracked_ = {stamp_s, T_W_D};
+  T_W_expected_ = T_W_D;
 }
 
 void FrameTracker::reject() { tracked_.reset(); }

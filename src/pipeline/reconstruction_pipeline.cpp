@@ -46,6 +46,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   result.tracking.T_W_D = T_W_D;
   if (!posed_preprocessor_)
     posed_preprocessor_ = std::make_unique<PosedPreprocessor>(compute_, parameters_, frame.intrinsics);
+  tracker_.follow(frame.stamp_s, T_W_D);
   fuse(frame, posed_preprocessor_->process(frame, T_W_D, timers_), result);
   return result;
 }

@@ -110,6 +110,21 @@ TEST(ReconstructionPipeline, LostFrameChangesNothingAndTheNextIsTracked) {
   EXPECT_FALSE(readMap(pipeline.map()) == before);
 }
 
+TEST(ReconstructionPipeline, TracksOnFromAPoseThatWasGiven) {
+  PipelineParameters parameters = pipelineParameters();
+  parameters.map.blocks_per_axis = 256;
+  ReconstructionPipeline pipeline(compute(), parameters, kCamera);
+  ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[0])));
+  Pose T_W_D = Pose::Identity();
+  T_W_D.translation().x() = 7.0;
+  ASSERT_GT(pipeline.processFrame(roomFrames()[0], T_W_D).fusion.blocks_updated, 0u);
+  // Against the view from before it is lost; then it is looked for where the pose was given.
+  FrameResult result;
+  for (int i = 0; i < 2; ++i) result = pipeline.processFrame(roomFrames()[0]);
+  ASSERT_TRUE(isTracking(result)) << result.tracking.reason;
+  EXPECT_LT((result.tracking.T_W_D.translation() - T_W_D.translation()).norm(), 0.015);
+}
+
 // Covered for a second, then back where it was a while before: keyframes say where that is.
 TEST(ReconstructionPipeline, ComesBackAfterABlackoutAndAJump) {
   SimulationOptions options;

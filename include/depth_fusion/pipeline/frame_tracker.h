@@ -33,6 +33,8 @@ class FrameTracker {
   // The frame is lost.
   void reject();
 
+  // A frame whose pose is known from elsewhere: the next one is predicted from there.
+  void follow(double stamp_s, const Pose& T_W_D);
   // A frame that is not tracked, for want of time: the next one is predicted from where its texture moved.
   void skip(double stamp_s, const TextureOdometryResult& motion);
   // Forgets everything.
