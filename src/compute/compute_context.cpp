@@ -78,7 +78,7 @@ void openDevice(ComputeContext::Impl& impl, const cl::Device& device, int simd_w
   impl.info = infoOf(device);
   impl.context = cl::Context(device);
   impl.queue = cl::CommandQueue(impl.context, device);
-  impl.programs.clear();
+  impl.built = std::make_shared<BuiltPrograms>();
   impl.simd_width = simd_width > 0 ? simd_width : simdWidth(device, impl.info);
   impl.group_size = group_size > 0 ? group_size : groupSize(device);
 }
@@ -153,8 +153,7 @@ std::unique_ptr<ComputeContext> ComputeContext::anotherQueue() {
   other->report = impl_->report;
   other->simd_width = impl_->simd_width;
   other->group_size = impl_->group_size;
-  const std::lock_guard<std::mutex> lock(impl_->programs_mutex);
-  other->programs = impl_->programs;
+  other->built = impl_->built;
   return std::unique_ptr<ComputeContext>(new ComputeContext(std::move(other)));
 }
 

@@ -12,6 +12,7 @@
 #endif
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -20,6 +21,12 @@
 namespace depth_fusion {
 
 class KernelProfiler;
+
+// By file and options.
+struct BuiltPrograms {
+  std::map<std::string, cl::Program> programs;
+  std::mutex mutex;
+};
 
 struct ComputeContext::Impl {
   cl::Device device;
@@ -30,8 +37,7 @@ struct ComputeContext::Impl {
   int simd_width = 1;                           // pixels or voxels a work-item handles at a time
   size_t group_size = 1;                        // most work-items of a work-group, a power of two
   KernelProfiler* profiler = nullptr;           // notes the launches, if there is one
-  std::map<std::string, cl::Program> programs;  // by file and options
-  std::mutex programs_mutex;
+  std::shared_ptr<BuiltPrograms> built = std::make_shared<BuiltPrograms>();  // of all the context's queues
 
   // Builds the program once, for any thread. file: path below kernels/. Throws Error with the build log.
   const cl::Program& program(const std::string& file, const std::string& options);

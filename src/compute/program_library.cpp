@@ -33,19 +33,19 @@ const cl::Program& ComputeContext::Impl::program(const std::string& file, const 
   const std::string all_options =
       "-cl-std=CL1.2 -cl-mad-enable -cl-no-signed-zeros -DSIMD_WIDTH=" + std::to_string(simd_width) + " " + options;
   const std::string key = file + " " + all_options;
-  const std::lock_guard<std::mutex> lock(programs_mutex);
-  const auto known = programs.find(key);
-  if (known != programs.end()) return known->second;
+  const std::lock_guard<std::mutex> lock(built->mutex);
+  const auto known = built->programs.find(key);
+  if (known != built->programs.end()) return known->second;
 
   std::set<std::string> included;
-  cl::Program built(context, expandIncludes(file, included));
+  cl::Program program(context, expandIncludes(file, included));
   try {
-    built.build({device}, all_options.c_str());
+    program.build({device}, all_options.c_str());
   } catch (const cl::Error& error) {
     throw Error("OpenCL program " + file + " (" + all_options + ") does not build on " + info.name + ": " +
-                statusText(error.err()) + "\n" + built.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device));
+                statusText(error.err()) + "\n" + program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device));
   }
-  return programs.emplace(key, std::move(built)).first->second;
+  return built->programs.emplace(key, std::move(program)).first->second;
 }
 
 std::string statusText(cl_int status) {
