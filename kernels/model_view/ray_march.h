@@ -78,10 +78,7 @@ inline Voxels look(const March march, const Point origin, __global const int *of
   at.block_z = z >> BLOCK_SIZE_LOG2;
   const vint inside =
       march.active & in_window(at.block_x, n) & in_window(at.block_y, n) & in_window(at.block_z, n);
-  const vint address =
-      wrap(at.block_x, grid.wrapped_origin[0], n) +
-      n * (wrap(at.block_y, grid.wrapped_origin[1], n) + n * wrap(at.block_z, grid.wrapped_origin[2], n));
-  const vint slot = slot_at(address, inside, offsets);
+  const vint slot = slot_at(window_address(at.block_x, at.block_y, at.block_z, grid), inside, offsets);
   at.allocated = slot >= 0;
   const vint in_block = (x & (BLOCK_SIZE - 1)) + ((y & (BLOCK_SIZE - 1)) << BLOCK_SIZE_LOG2) +
                         ((z & (BLOCK_SIZE - 1)) << (2 * BLOCK_SIZE_LOG2));

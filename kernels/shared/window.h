@@ -9,6 +9,13 @@ inline vint wrap(vint block, int wrapped_origin, int blocks_per_axis) {
 
 inline vint in_window(vint block, int blocks_per_axis) { return AS_VUINT(block) < (uint)blocks_per_axis; }
 
+// Of blocks in the window, in the offsets; anything of others.
+inline vint window_address(vint x, vint y, vint z, const GridArgs grid) {
+  const int n = grid.blocks_per_axis;
+  return wrap(x, grid.wrapped_origin[0], n) +
+         n * (wrap(y, grid.wrapped_origin[1], n) + n * wrap(z, grid.wrapped_origin[2], n));
+}
+
 // Slots of the blocks at the addresses; -1 where there is none, or where not `inside`.
 inline vint slot_at(vint address, vint inside, __global const int *offsets) {
   return select((vint)(-1), GATHER(vint, offsets, select((vint)(0), address, inside)), inside);

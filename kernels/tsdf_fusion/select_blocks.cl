@@ -21,8 +21,7 @@ inline Blocks blocks_with(vfloat x, vfloat y, vfloat z, const GridArgs grid) {
   blocks.z = TO_VINT(floor(z * per_block));
   const vint in_x = blocks.x - grid.origin[0], in_y = blocks.y - grid.origin[1], in_z = blocks.z - grid.origin[2];
   blocks.inside = in_window(in_x, n) & in_window(in_y, n) & in_window(in_z, n);
-  blocks.address = wrap(in_x, grid.wrapped_origin[0], n) +
-                   n * (wrap(in_y, grid.wrapped_origin[1], n) + n * wrap(in_z, grid.wrapped_origin[2], n));
+  blocks.address = window_address(in_x, in_y, in_z, grid);
   return blocks;
 }
 

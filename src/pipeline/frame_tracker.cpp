@@ -42,11 +42,16 @@ TrackingResult FrameTracker::track(const RgbdFrame& frame, const MotionPrior& pr
 }
 
 void FrameTracker::accept(const RgbdFrame& frame, const FrameFeatures& features, const Pose& T_W_D) {
-  follow(frame.stamp_s, T_W_D);
+  moveTo(frame.stamp_s, T_W_D);
   relocaliser_.add(features, T_W_D);
 }
 
-void FrameTracker::follow(double stamp_s, const Pose& T_W_D) {
+void FrameTracker::follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers) {
+  moveTo(frame.stamp_s, T_W_D);
+  preprocess(compute_, preprocessor_, frame, velocity_, timers);
+}
+
+void FrameTracker::moveTo(double stamp_s, const Pose& T_W_D) {
   velocity_.setZero();
   if (tracked_) velocity_ = velocityOver(tracked_->T_W_D.inverse() * T_W_D, stamp_s - tracked_->stamp_s);
   tracked_ = {stamp_s, T_W_D};

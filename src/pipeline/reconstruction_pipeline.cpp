@@ -4,8 +4,7 @@ namespace depth_fusion {
 
 ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
                                                const CameraIntrinsics& camera)
-    : compute_(compute),
-      parameters_(withinSensorRange(parameters)),
+    : parameters_(withinSensorRange(parameters)),
       map_(compute, parameters.map),
       odometry_(parameters.texture_odometry, parameters.depth_sensor),
       mapper_(compute, map_, parameters, camera),
@@ -44,10 +43,8 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   FrameResult result;
   result.tracking.status = TrackingStatus::kTracking;
   result.tracking.T_W_D = T_W_D;
-  if (!posed_preprocessor_)
-    posed_preprocessor_ = std::make_unique<PosedPreprocessor>(compute_, parameters_, frame.intrinsics);
-  tracker_.follow(frame.stamp_s, T_W_D);
-  fuse(frame, posed_preprocessor_->process(frame, T_W_D, timers_), result);
+  tracker_.follow(frame, T_W_D, timers_);
+  fuse(frame, *tracker_.depth(), result);
   return result;
 }
 

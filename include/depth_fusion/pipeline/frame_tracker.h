@@ -33,8 +33,8 @@ class FrameTracker {
   // The frame is lost.
   void reject();
 
-  // A frame whose pose is known from elsewhere: the next one is predicted from there.
-  void follow(double stamp_s, const Pose& T_W_D);
+  // Preprocesses a frame whose pose is known from elsewhere; the next one is predicted from there.
+  void follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers);
   // A frame that is not tracked, for want of time: the next one is predicted from where its texture moved.
   void skip(double stamp_s, const TextureOdometryResult& motion);
   // Forgets everything.
@@ -56,6 +56,7 @@ class FrameTracker {
   TrackingResult relocalise(const DepthFrame& depth, const FrameFeatures& features, const MotionPrior& prior,
                             const TrackingResult& lost, StageTimers& timers);
   TrackingResult trackFrom(const MotionPrior& prior, const DepthFrame& depth, StageTimers& timers);
+  void moveTo(double stamp_s, const Pose& T_W_D);
 
   ComputeContext& compute_;
   PipelineParameters parameters_;

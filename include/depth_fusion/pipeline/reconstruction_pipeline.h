@@ -5,7 +5,6 @@
 
 #include "depth_fusion/pipeline/frame_tracker.h"
 #include "depth_fusion/pipeline/mapper.h"
-#include "depth_fusion/pipeline/posed_preprocessor.h"
 
 namespace depth_fusion {
 
@@ -56,7 +55,6 @@ class ReconstructionPipeline {
   // Tells the tracker that a frame, which it was told is accepted, is not in the map.
   void withdraw();
 
-  ComputeContext& compute_;
   PipelineParameters parameters_;
   StageTimers timers_;
   BlockSparseMap map_;
@@ -64,8 +62,6 @@ class ReconstructionPipeline {
   Mapper mapper_;
   std::unique_ptr<ComputeContext> tracking_queue_;
   FrameTracker tracker_;
-  std::unique_ptr<PosedPreprocessor>
-      posed_preprocessor_;           // made for the first frame with a pose from elsewhere
   const ModelView* view_ = nullptr;  // of the last fused frame; none before the first
   // Of the next frame; valid if the last call was given it.
   std::future<TexturedFrame> textured_;
