@@ -9,6 +9,9 @@
 
 namespace depth_fusion {
 
+// Why a frame is dropped that newer ones have overtaken.
+constexpr char kTooSlow[] = "too slow";
+
 class FrameCounter {
  public:
   void receive() { count(received_); }

@@ -78,7 +78,7 @@ IcpTrackingNodelet::~IcpTrackingNodelet() {
   view_subscriber_.shutdown();
   sensor_subscriber_.reset();
   if (fusion_ != nullptr) fusion_->stop();
-  worker_.reset();
+  if (worker_ != nullptr) worker_->stop();
 }
 
 void IcpTrackingNodelet::start() {
@@ -92,7 +92,7 @@ void IcpTrackingNodelet::start() {
   worker_ = std::make_unique<Worker<TexturedFramePtr>>(
       queue_size_, [this](const TexturedFramePtr& frame) { process(frame); },
       [this](const TexturedFramePtr& frame) {
-        counter_.drop("too slow");
+        counter_.drop(kTooSlow);
         skipped_.add(*frame);
       });
   subscribe();

@@ -17,13 +17,21 @@ constexpr size_t kColorsKept = 30;
 constexpr double kClockJump_s = 1.0;
 constexpr double kMaxInfoWait_s = 0.5;  // for camera_info and tf
 constexpr double kReleasePeriod_s = 0.02;
+constexpr double kSilence_s = 2.0;  // without a depth image, before that is a problem
 
 }  // namespace
 
 ParameterTable RgbdParameters::table() {
-  return {{"depth_transport", &depth_transport, 0, 0, "of depth/image", {"raw", "compressedDepth", "compressed"}, true},
+  return {{"depth_transport",
+           &depth_transport,
+           0,
+           0,
+           "of depth/image",
+           {"raw", "compressedDepth", "compressed"},
+           true},
           {"color_transport", &color_transport, 0, 0, "of rgb/image", {"raw", "compressed"}, true},
-          {"max_pairing_gap_s", &max_pairing_gap_s, 0.0, 1.0, "colour farther from its depth than this is left out"},
+          {"max_pairing_gap_s", &max_pairing_gap_s, 0.0, 1.0,
+           "colour farther from its depth than this is left out"},
           {"max_color_wait_s", &max_color_wait_s, 0.0, 10.0, "how long a depth image waits for its colour"}};
 }
 
@@ -36,7 +44,7 @@ RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& par
       callback_(std::move(callback)) {
   const std::lock_guard<std::mutex> lock(mutex_);
   subscribe(handle);
-  problem_ = "no depth image yet on " + depth_topic_;
+  problem_ = "no depth image yet on " + depth_topic_ + "; is the sensor running, and is that its topic?";
   timer_ = handle.createWallTimer(ros::WallDuration(kReleasePeriod_s), [this](const ros::WallTimerEvent&) {
     const std::lock_guard<std::mutex> timer_lock(mutex_);
     release();
@@ -75,8 +83,8 @@ void RgbdSubscriber::subscribe(ros::NodeHandle& handle) {
     frame.rgbd.depth_unit_m = depth.unit_m;
   };
   if (parameters_.depth_transport == "raw") {
-    depth_subscriber_ =
-        handle.subscribe<sensor_msgs::Image>(depth_topic_, kTopicQueue, [this, take](const ImageConstPtr& image) {
+    depth_subscriber_ = handle.subscribe<sensor_msgs::Image>(
+        depth_topic_, kTopicQueue, [this, take](const ImageConstPtr& image) {
           onDepth(image->header, [&](SensorFrame& frame) {
             take(frame, depthFromImage(*image, depth_topic_));
             frame.depth_message = image;
@@ -85,16 +93,20 @@ void RgbdSubscriber::subscribe(ros::NodeHandle& handle) {
   } else {
     depth_subscriber_ = handle.subscribe<sensor_msgs::CompressedImage>(
         depth_topic_, kTopicQueue, [this, take](const CompressedImageConstPtr& image) {
-          onDepth(image->header, [&](SensorFrame& frame) { take(frame, depthFromCompressed(*image, depth_topic_)); });
+          onDepth(image->header,
+                  [&](SensorFrame& frame) { take(frame, depthFromCompressed(*image, depth_topic_)); });
         });
   }
   if (parameters_.color_transport == "raw") {
-    color_subscriber_ = handle.subscribe<sensor_msgs::Image>(
-        color_topic_, kTopicQueue, [this](const ImageConstPtr& image) { onColor({image->header, image, nullptr}); });
+    color_subscriber_ =
+        handle.subscribe<sensor_msgs::Image>(color_topic_, kTopicQueue, [this](const ImageConstPtr& image) {
+          onColor({image->header, image, nullptr});
+        });
   } else {
     color_subscriber_ = handle.subscribe<sensor_msgs::CompressedImage>(
-        color_topic_, kTopicQueue,
-        [this](const CompressedImageConstPtr& image) { onColor({image->header, nullptr, image}); });
+        color_topic_, kTopicQueue, [this](const CompressedImageConstPtr& image) {
+          onColor({image->header, nullptr, image});
+        });
   }
 }
 
@@ -106,12 +118,17 @@ void RgbdSubscriber::setParameters(const RgbdParameters& parameters) {
 
 std::string RgbdSubscriber::problem() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return problem_;
+  const double silent_s = (ros::WallTime::now() - last_depth_).toSec();
+  if (!problem_.empty() || silent_s < kSilence_s) return problem_;
+  return "no depth image on " + depth_topic_ + " for " + std::to_string(static_cast<int>(silent_s)) +
+         " s; is the sensor running?";
 }
 
-void RgbdSubscriber::onDepth(const std_msgs::Header& header, const std::function<void(SensorFrame&)>& decode) {
+void RgbdSubscriber::onDepth(const std_msgs::Header& header,
+                             const std::function<void(SensorFrame&)>& decode) {
   const std::lock_guard<std::mutex> lock(mutex_);
   counter_.receive();
+  last_depth_ = ros::WallTime::now();
   auto frame = std::make_shared<SensorFrame>();
   frame->header = header;
   if (!takeStamp(*frame)) return;
@@ -151,7 +168,8 @@ bool RgbdSubscriber::takeStamp(SensorFrame& frame) {
 }
 
 void RgbdSubscriber::takeCamera(SensorFrame& frame) const {
-  check(depth_info_ != nullptr, "no camera_info yet on " + info_topic_ + "; remap depth/camera_info to the driver's");
+  check(depth_info_ != nullptr,
+        "no camera_info yet on " + info_topic_ + "; remap depth/camera_info to the driver's");
   const CameraIntrinsics camera = cameraFromInfo(*depth_info_, depth_topic_);
   check(camera.valid(), info_topic_ + ": no focal length or size; calibrate the camera (camera_calibration)");
   check(camera.width == frame.rgbd.depth.cols && camera.height == frame.rgbd.depth.rows,

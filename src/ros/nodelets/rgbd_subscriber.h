@@ -30,11 +30,11 @@ struct RgbdParameters {
   ParameterTable table();
 };
 
-// Subscribes depth/image, depth/camera_info, rgb/image and rgb/camera_info of the node handle's namespace, or with a
-// compressed transport depth/image/compressedDepth, rgb/image/compressed. A depth image goes on with the colour image nearest
-// in time, or without one when none comes; what cannot be used is dropped, counted by its reason, and warned of. Frames
-// come registered: without lens distortion, and with the way from the depth camera to the colour camera, which tf says where
-// their frames differ.
+// Subscribes depth/image, depth/camera_info, rgb/image and rgb/camera_info of the node handle's namespace, or
+// with a compressed transport depth/image/compressedDepth, rgb/image/compressed. A depth image goes on with
+// the colour image nearest in time, or without one when none comes; what cannot be used is dropped, counted
+// by its reason, and warned of. Frames come registered: without lens distortion, and with the way from the
+// depth camera to the colour camera, which tf says where their frames differ.
 class RgbdSubscriber {
  public:
   using Callback = std::function<void(const SensorFramePtr&)>;
@@ -97,6 +97,7 @@ class RgbdSubscriber {
   std::deque<PendingDepth> pending_;
   std::deque<ColorImage> colors_;
   std::optional<ros::Time> last_stamp_;
+  ros::WallTime last_depth_;  // arrived
   uint32_t clock_jumps_ = 0;
   std::string problem_;
   // Made when first needed:

@@ -1,12 +1,24 @@
 #include "ros/nodelets/stage_nodelet.h"
 
+#include <algorithm>
+
 #include "depth_fusion/common/percentile.h"
 #include "ros/nodelets/ros_parameters.h"
 
 namespace depth_fusion {
 namespace {
 
+using diagnostic_msgs::DiagnosticStatus;
+
 constexpr double kReportPeriod_s = 1.0;
+constexpr uint64_t kFewestTooSlow = 5;  // one frame of so many may be skipped without a warning
+
+uint64_t droppedFor(const FrameAccount& account, const std::string& reason) {
+  const auto found = std::find(account.reasons.begin(), account.reasons.end(), reason);
+  return found == account.reasons.end()
+             ? 0
+             : account.dropped[static_cast<size_t>(found - account.reasons.begin())];
+}
 
 }  // namespace
 
@@ -95,12 +107,28 @@ void StageNodelet::publishTimings() {
   timings_publisher_.publish(timings);
 }
 
+void StageNodelet::warnOfMissingFrames(const FrameAccount& account,
+                                       diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const uint64_t received = account.received - last_account_.received;
+  const uint64_t too_slow = droppedFor(account, kTooSlow) - droppedFor(last_account_, kTooSlow);
+  if (received == 0 && !frame_source_.empty()) {
+    status.summary(DiagnosticStatus::WARN, "no frames from " + frame_source_ + "; see what that says");
+  } else if (too_slow * kFewestTooSlow > received) {
+    status.summaryf(
+        DiagnosticStatus::WARN,
+        "too slow: %lu of %lu frames skipped; raise map/voxel_size_m, or let the sensor send fewer", too_slow,
+        received);
+  }
+}
+
 void StageNodelet::diagnoseFrames(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const FrameAccount account = counter_.account();
-  status.summary(diagnostic_msgs::DiagnosticStatus::OK, "running");
+  status.summary(DiagnosticStatus::OK, "running");
   diagnose(status);
-  status.add("frames a second", static_cast<double>(account.processed - last_processed_) / kReportPeriod_s);
-  last_processed_ = account.processed;
+  if (status.level == DiagnosticStatus::OK) warnOfMissingFrames(account, status);
+  status.add("frames a second",
+             static_cast<double>(account.processed - last_account_.processed) / kReportPeriod_s);
+  last_account_ = account;
   status.add("frames received", account.received);
   status.add("frames processed", account.processed);
   for (size_t i = 0; i < account.reasons.size(); ++i)

@@ -69,6 +69,9 @@ class StageNodelet : public nodelet::Nodelet {
   void refuseFromOtherProcess(const std::string& sender, Carries what);
   void report();
   void diagnoseFrames(diagnostic_updater::DiagnosticStatusWrapper& status);
+  // Since the last report: none came, or many were skipped.
+  void warnOfMissingFrames(const FrameAccount& account,
+                           diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void publishTimings();
 
   std::vector<ParameterGroup> parameter_groups_;
@@ -81,13 +84,15 @@ class StageNodelet : public nodelet::Nodelet {
   ros::Publisher timings_publisher_;
   std::unique_ptr<diagnostic_updater::Updater> updater_;
   ros::WallTimer report_timer_;
-  uint64_t last_processed_ = 0;
+  std::string frame_source_;  // the nodelet that frames come from; empty: from topics
+  FrameAccount last_account_;
 };
 
 template <class Payload>
 ros::Subscriber StageNodelet::subscribeInProcess(
     const std::string& topic, const std::string& sender, Carries what,
     std::function<void(const boost::shared_ptr<const ProcessMessage<Payload>>&)> take) {
+  if (what == Carries::kFrames) frame_source_ = sender;
   return getMTNodeHandle().subscribe<ProcessMessage<Payload>>(
       topic, kProcessQueue, [=](const boost::shared_ptr<const ProcessMessage<Payload>>& message) {
         if (what == Carries::kFrames) counter_.receive();

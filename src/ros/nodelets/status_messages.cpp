@@ -3,6 +3,22 @@
 namespace depth_fusion {
 
 using diagnostic_msgs::DiagnosticStatus;
+namespace {
+
+const char* stateName(uint8_t state) {
+  switch (state) {
+    case TrackerStatus::TRACKING:
+      return "tracking";
+    case TrackerStatus::DEGENERATE:
+      return "degenerate";
+    case TrackerStatus::PAUSED:
+      return "paused";
+    default:
+      return "lost";
+  }
+}
+
+}  // namespace
 
 TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingResult& result) {
   TrackerStatus status;
@@ -34,6 +50,7 @@ void diagnose(const TrackerStatus& tracker, const std::string& problem,
   } else if (!tracker.reason.empty()) {
     status.summary(DiagnosticStatus::WARN, tracker.reason);
   }
+  status.add("state", stateName(tracker.state));
   status.add("inliers", tracker.inliers);
   status.add("rmse_m", tracker.rmse_m);
   status.add("keyframes", tracker.keyframes);
@@ -44,9 +61,11 @@ void diagnose(const MapStatus& map, const std::string& problem,
   const double used = static_cast<double>(map.blocks) / std::max<double>(1.0, map.blocks + map.blocks_free);
   if (!problem.empty()) {
     status.summary(DiagnosticStatus::WARN, problem);
+  } else if (map.blocks_left_out > 0) {
+    status.summary(DiagnosticStatus::ERROR, map.reason);
   } else if (used > 0.9) {
     status.summary(
-        used > 0.99 ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+        DiagnosticStatus::WARN,
         "the pool of voxels is nearly full; raise map/pool_mib or map/voxel_size_m, or reset_volume");
   } else if (!map.reason.empty()) {
     status.summary(DiagnosticStatus::WARN, map.reason);

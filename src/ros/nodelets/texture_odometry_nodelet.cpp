@@ -15,7 +15,7 @@ class TextureOdometryNodelet : public StageNodelet {
   ~TextureOdometryNodelet() override {
     stopReporting();
     subscriber_.reset();
-    worker_.reset();
+    if (worker_ != nullptr) worker_->stop();
   }
 
  private:
@@ -65,7 +65,7 @@ void TextureOdometryNodelet::start() {
   odometry_publisher_ = handle.advertise<nav_msgs::Odometry>("odometry", 10);
   worker_ = std::make_unique<Worker<SensorFramePtr>>(
       queue_size_, [this](const SensorFramePtr& frame) { process(frame); },
-      [this](const SensorFramePtr&) { counter_.drop("too slow"); });
+      [this](const SensorFramePtr&) { counter_.drop(kTooSlow); });
   subscriber_ = std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, device_, counter_,
                                                  [this](const SensorFramePtr& frame) { worker_->push(frame); });
   startReporting();

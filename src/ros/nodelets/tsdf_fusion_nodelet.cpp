@@ -85,7 +85,7 @@ TsdfFusionNodelet::~TsdfFusionNodelet() {
   mode_server_.shutdown();
   frame_subscriber_.shutdown();
   posed_subscriber_.reset();
-  worker_.reset();
+  if (worker_ != nullptr) worker_->stop();
 }
 
 void TsdfFusionNodelet::start() {
@@ -103,7 +103,7 @@ void TsdfFusionNodelet::start() {
   picture_ = std::make_unique<ModelPicture>(handle.advertise<sensor_msgs::Image>("model_view/image", 1));
   worker_ = std::make_unique<Worker<TrackedFramePtr>>(
       queue_size_, [this](const TrackedFramePtr& frame) { process(frame); },
-      [this](const TrackedFramePtr&) { counter_.drop("too slow"); });
+      [this](const TrackedFramePtr&) { counter_.drop(kTooSlow); });
   subscribe();
   reset_server_ = handle.advertiseService("reset_volume", &TsdfFusionNodelet::serveReset, this);
   mode_server_ = handle.advertiseService("set_mode", &TsdfFusionNodelet::serveMode, this);

@@ -17,14 +17,16 @@ class Worker {
   Worker(size_t capacity, std::function<void(const Item&)> work, std::function<void(const Item&)> drop)
       : capacity_(capacity), work_(std::move(work)), drop_(std::move(drop)), thread_([this] { run(); }) {}
 
-  // Waits for the item at work; those waiting are forgotten.
-  ~Worker() {
+  ~Worker() { stop(); }
+
+  // Waits for the item at work; those waiting are forgotten. May be called again.
+  void stop() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       stopping_ = true;
     }
     changed_.notify_all();
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
   }
 
   void push(const Item& item) {

@@ -1,0 +1,97 @@
+// Diagnostics: in every state of the sensor and of the map, what is wrong and what to do about it.
+#include "support/diagnostics.h"
+
+#include "ros/nodelets/shared_map.h"
+#include "support/live_graph.h"
+
+namespace depth_fusion {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kFrame_s = 0.1;  // between frames
+
+class DiagnosticsOf : public LiveGraph {
+ protected:
+  DiagnosticsOf() : diagnostics_(graph_), frame_(simulatedFrames(smallRoom(1)).front()) {}
+
+  // Sends the same view again and again until the nodelet says so.
+  DiagnosticStatus sendUntil(const std::string& nodelet, int level, const std::string& words) {
+    DiagnosticStatus found;
+    found.level = -1;
+    for (double waited_s = 0.0; waited_s < kPatience_s && found.level != level; waited_s += kFrame_s) {
+      frame_.stamp_s += kFrame_s;
+      camera_.publish(frame_);
+      found = diagnostics_.await(nodelet, level, words, kFrame_s);
+    }
+    EXPECT_EQ(found.level, level) << nodelet << " never said \"" << words << "\"";
+    return found;
+  }
+
+  Diagnostics diagnostics_;
+  RgbdFrame frame_;
+};
+
+TEST_F(DiagnosticsOf, ASensorThatIsNotThere) {
+  loadTracking();
+  EXPECT_TRUE(diagnostics_.says(
+      "texture_odometry", DiagnosticStatus::WARN,
+      "no depth image yet on " + graph_.resolve("depth/image") + "; is the sensor running"));
+  EXPECT_TRUE(diagnostics_.says("icp_tracking", DiagnosticStatus::WARN, "no frames from texture_odometry"));
+  EXPECT_TRUE(diagnostics_.says("tsdf_fusion", DiagnosticStatus::WARN, "no frames from icp_tracking"));
+}
+
+TEST_F(DiagnosticsOf, ASensorThatRunsAndStops) {
+  loadTracking();
+  const DiagnosticStatus odometry = sendUntil("texture_odometry", DiagnosticStatus::OK, "running");
+  const DiagnosticStatus tracking = sendUntil("icp_tracking", DiagnosticStatus::OK, "running");
+  const DiagnosticStatus fusion = sendUntil("tsdf_fusion", DiagnosticStatus::OK, "running");
+  for (const DiagnosticStatus& status : {odometry, tracking, fusion}) {
+    for (const char* key : {"frames a second", "frames received", "frames processed", "queue"})
+      EXPECT_NE(valueOf(status, key), "") << status.name << " " << key;
+    EXPECT_GT(std::stod(valueOf(status, "frames a second")), 0.0) << status.name;
+  }
+  EXPECT_EQ(valueOf(tracking, "state"), "tracking");
+  EXPECT_GT(std::stoi(valueOf(tracking, "inliers")), 1000);
+  EXPECT_GT(std::stoi(valueOf(fusion, "blocks")), 100);
+  EXPECT_GT(std::stod(valueOf(fusion, "pool used")), 0.0);
+  for (const DiagnosticStatus& status : {tracking, fusion})
+    EXPECT_NE(valueOf(status, "device"), "") << status.name;
+  EXPECT_NE(valueOf(odometry, "texture_odometry ms").find("median"), std::string::npos);
+  EXPECT_NE(valueOf(tracking, "icp_tracking ms").find("median"), std::string::npos);
+  EXPECT_NE(valueOf(fusion, "tsdf_fusion/integrate ms").find("median"), std::string::npos);
+  EXPECT_TRUE(diagnostics_.says("texture_odometry", DiagnosticStatus::WARN, " s; is the sensor running?"));
+}
+
+TEST_F(DiagnosticsOf, ASensorThatIsLost) {
+  loadTracking();
+  sendUntil("icp_tracking", DiagnosticStatus::OK, "running");
+  frame_.depth.setTo(0);
+  const DiagnosticStatus lost = sendUntil("icp_tracking", DiagnosticStatus::ERROR, "lost: ");
+  EXPECT_NE(lost.message.find("; move the sensor back to where it has been"), std::string::npos);
+  EXPECT_EQ(valueOf(lost, "state"), "lost");
+  EXPECT_GT(std::stoi(valueOf(lost, "dropped: lost")), 0);
+  setMode(SetMode::Request::PAUSED);
+  EXPECT_EQ(valueOf(sendUntil("icp_tracking", DiagnosticStatus::WARN, "paused"), "state"), "paused");
+}
+
+TEST_F(DiagnosticsOf, APoolThatIsFull) {
+  graph_.handle().setParam("map/pool_mib", 1);
+  loadTracking();
+  const DiagnosticStatus full = sendUntil("tsdf_fusion", DiagnosticStatus::ERROR, "the pool is full");
+  EXPECT_NE(full.message.find("raise map/pool_mib or map/voxel_size_m"), std::string::npos);
+  EXPECT_GT(std::stoi(valueOf(full, "blocks left out")), 0);
+}
+
+TEST_F(DiagnosticsOf, AMachineThatIsTooSlow) {
+  loadTracking();
+  sendUntil("icp_tracking", DiagnosticStatus::OK, "running");
+  const std::shared_ptr<SharedMap> map = findMap(graph_.resolve("tsdf_fusion"));
+  const std::lock_guard<std::mutex> busy(map->mutex);  // fusion has to wait for it, and tracking for fusion
+  const DiagnosticStatus slow = sendUntil("icp_tracking", DiagnosticStatus::WARN, "too slow: ");
+  EXPECT_NE(slow.message.find("raise map/voxel_size_m"), std::string::npos);
+  EXPECT_GT(std::stoi(valueOf(slow, "dropped: too slow")), 0);
+}
+
+}  // namespace
+}  // namespace depth_fusion

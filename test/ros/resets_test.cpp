@@ -1,0 +1,121 @@
+// Resets of the map: nothing of what was before is left, whatever is on its way.
+#include <thread>
+
+#include "ros/nodelets/frames.h"
+#include "ros/nodelets/shared_map.h"
+#include "support/live_graph.h"
+
+namespace depth_fusion {
+namespace {
+
+class Resets : public LiveGraph {
+ protected:
+  // A map of three frames, and the fourth as tracked in it.
+  void mapSomeFrames() {
+    loadTracking();
+    late_ = graph_.handle().advertise<TrackedFrameMessage>("icp_tracking/frame", 1);
+    const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(4));
+    fuseAll({frames.begin(), frames.begin() + 3});
+    const Listener<TrackedFrameMessage> tracked(graph_.handle(), "icp_tracking/frame");
+    fuseAll({frames.back()});
+    frame_ = *tracked.awaitStamp(camera_.headerOf(frames.back()).stamp)->payload;
+  }
+  // The frame once more, with a stamp of its own, as it is on its way when the map is reset.
+  ros::Time send(ros::WallTime received, bool begins_map) {
+    auto sensor = std::make_shared<SensorFrame>(*frame_.sensor);
+    sensor->header.stamp += ros::Duration(++sent_);
+    sensor->received = received;
+    auto frame = std::make_shared<TrackedFrame>(frame_);
+    frame->sensor = sensor;
+    frame->begins_map = begins_map;
+    late_.publish(makeMessage<TrackedFrame>(sensor->header, frame));
+    return sensor->header.stamp;
+  }
+  void expectRefused(const ros::Time& stamp) {
+    const auto status = map_status_.awaitStamp(stamp);
+    ASSERT_NE(status, nullptr);
+    EXPECT_FALSE(status->fused);
+    EXPECT_EQ(status->reason, kBeforeReset);
+    EXPECT_EQ(status->blocks, 0u);
+  }
+
+  ros::Publisher late_;
+  TrackedFrame frame_;
+  int sent_ = 0;
+};
+
+TEST_F(Resets, EmptyMapAndTracker) {
+  Listener<TrackedFrameMessage> tracked(graph_.handle(), "icp_tracking/frame");
+  loadTracking();
+  const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(12));
+  fuseAll({frames.begin(), frames.begin() + 6});
+  const uint32_t before = map_status_.all().back()->generation;
+  resetVolume();
+  EXPECT_EQ(findMap(graph_.resolve("tsdf_fusion"))->map.usage().blocks, 0u);
+  ros::WallDuration(0.5).sleep();  // until the tracker has heard of it: what comes sooner is from before
+
+  fuseAll({frames.begin() + 6, frames.end()});
+  const MapStatus after = *map_status_.all().back();
+  EXPECT_NE(after.generation, before);
+  EXPECT_EQ(after.frames.processed, 12u);
+  // The first frame after it begins a map of its own.
+  const auto first = tracked.awaitStamp(camera_.headerOf(frames[6]).stamp);
+  EXPECT_TRUE(poseOf(poses_.awaitStamp(first->header.stamp)->pose.pose).translation().isZero());
+}
+
+TEST_F(Resets, RefuseFramesFromBefore) {
+  mapSomeFrames();
+  resetVolume();
+  const uint32_t of_old_map = frame_.map_generation;
+  const uint32_t of_new_map = findMap(graph_.resolve("tsdf_fusion"))->generation;
+  ASSERT_NE(of_old_map, of_new_map);
+  for (const bool begins_map : {false, true}) {
+    for (const uint32_t generation : {of_old_map, of_new_map, 0u}) {
+      frame_.map_generation = generation;
+      expectRefused(send(frame_.sensor->received, begins_map));
+    }
+    // Tracked in the map that is gone, or by one who has not heard of it.
+    for (const uint32_t generation : {of_old_map, 0u}) {
+      frame_.map_generation = generation;
+      expectRefused(send(ros::WallTime::now(), begins_map));
+    }
+  }
+}
+
+// Frames and reset wait for the map at the same time; whoever comes first, nothing is left of the frames.
+TEST_F(Resets, LeaveNothingOfFramesThatWaitForTheMap) {
+  mapSomeFrames();
+  const std::shared_ptr<SharedMap> map = findMap(graph_.resolve("tsdf_fusion"));
+  for (int round = 0; round < 5; ++round) {
+    frame_.map_generation = map->generation;
+    std::unique_lock<std::mutex> busy(map->mutex);
+    const ros::Time stamp = send(ros::WallTime::now(), true);
+    ros::WallDuration(0.1).sleep();
+    std::thread resetting([this] { resetVolume(); });
+    ros::WallDuration(0.1).sleep();
+    busy.unlock();
+    resetting.join();
+    ASSERT_NE(map_status_.awaitStamp(stamp), nullptr);
+    const std::lock_guard<std::mutex> lock(map->mutex);
+    EXPECT_EQ(map->map.usage().blocks, 0u) << round;
+  }
+}
+
+TEST(MapResets, GoByArrivalAndForAShortTimeByStamps) {
+  const MapReset reset{ros::WallTime(100.0), ros::Time(50.0)};
+  const auto isBefore = [&](double received_s, double stamp_s) {
+    SensorFrame frame;
+    frame.received = ros::WallTime(received_s);
+    frame.header.stamp = ros::Time(stamp_s);
+    return reset.isAfter(frame);
+  };
+  EXPECT_TRUE(isBefore(99.9, 60.0));
+  EXPECT_TRUE(isBefore(100.1, 49.9)) << "was on its way";
+  EXPECT_FALSE(isBefore(100.1, 50.1));
+  EXPECT_FALSE(isBefore(100.1, 1000.0)) << "stamps of another clock";
+  EXPECT_FALSE(isBefore(100.1, 1.0)) << "stamps of another clock";
+  EXPECT_FALSE(isBefore(102.0, 49.9)) << "a bag in a loop";
+}
+
+}  // namespace
+}  // namespace depth_fusion
