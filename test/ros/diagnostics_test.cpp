@@ -13,7 +13,7 @@ constexpr double kFrame_s = 0.1;  // between frames
 
 class DiagnosticsOf : public LiveGraph {
  protected:
-  DiagnosticsOf() : diagnostics_(graph_), frame_(simulatedFrames(smallRoom(1)).front()) {}
+  DiagnosticsOf() : diagnostics_(graph_.handle()), frame_(simulatedFrames(smallRoom(1)).front()) {}
 
   // Sends the same view again and again until the nodelet says so.
   DiagnosticStatus sendUntil(const std::string& nodelet, int level, const std::string& words) {

@@ -9,7 +9,7 @@
 #include "depth_fusion/evaluation/mesh_error.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "ros/recording.h"
-#include "support/nodelet_graph.h"
+#include "support/diagnostics.h"
 #include "support/temporary_folder.h"
 
 namespace depth_fusion {
@@ -40,7 +40,8 @@ void expectModeIsServed(ros::NodeHandle& handle) {
 // Those before may be dropped while the kernels are built.
 const RgbdFrame& firstTracked(const std::vector<RgbdFrame>& frames, const Listener<TrackerStatus>& tracker) {
   const ros::Time stamp = tracker.all().front()->header.stamp;
-  return *std::find_if(frames.begin(), frames.end(), [&](const RgbdFrame& f) { return toRosTime(f.stamp_s) == stamp; });
+  return *std::find_if(frames.begin(), frames.end(),
+                       [&](const RgbdFrame& f) { return toRosTime(f.stamp_s) == stamp; });
 }
 
 TEST(Replay, ABagBecomesPosesAndAMapAndNoFrameIsUnaccountedFor) {
@@ -61,6 +62,7 @@ TEST(Replay, ABagBecomesPosesAndAMapAndNoFrameIsUnaccountedFor) {
   const tf2_ros::TransformListener listener(buffer);
   Listener<TrackerStatus> tracker(handle, "icp_tracking/status");
   Listener<MapStatus> map(handle, "tsdf_fusion/status");
+  const Diagnostics diagnostics(handle);
   ASSERT_TRUE(eventually([&] { return tracker.connected() && map.connected(); }));
   ros::WallDuration(2.0).sleep();  // until the nodelets have found each other
   // Slowly, for the test machine has more to do; the services are called meanwhile.
@@ -77,8 +79,11 @@ TEST(Replay, ABagBecomesPosesAndAMapAndNoFrameIsUnaccountedFor) {
   ASSERT_NE(status, nullptr);
   EXPECT_TRUE(status->fused) << status->reason;
   const TrackerStatus tracking = *tracker.awaitStamp(last);
-  EXPECT_EQ(tracking.frames.received, uint64_t{kFrames});
-  EXPECT_EQ(tracking.frames.processed + droppedOf(tracking.frames), uint64_t{kFrames});
+  const Diagnostics::Status odometry = diagnostics.await("texture_odometry", [](const auto& said) {
+    return valueOf(said, "frames received") == std::to_string(kFrames);
+  });
+  EXPECT_EQ(tracking.frames.received + framesDropped(odometry), uint64_t{kFrames});
+  EXPECT_EQ(tracking.frames.processed + droppedOf(tracking.frames), tracking.frames.received);
   EXPECT_EQ(status->frames.processed + droppedOf(status->frames), tracking.frames.processed);
 
   const RgbdFrame& first = firstTracked(frames, tracker);

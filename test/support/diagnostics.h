@@ -3,6 +3,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 
+#include <functional>
 #include <string>
 
 #include "support/nodelet_graph.h"
@@ -11,48 +12,62 @@ namespace depth_fusion {
 
 class Diagnostics {
  public:
-  explicit Diagnostics(NodeletGraph& graph) : graph_(graph), arrays_(graph.handle(), "/diagnostics") {}
+  using Status = diagnostic_msgs::DiagnosticStatus;
 
-  // What the nodelet says first, from now on, at that level with those words; its level is -1 if it never
-  // does.
-  diagnostic_msgs::DiagnosticStatus await(const std::string& nodelet, int level, const std::string& words,
-                                          double patience_s = kPatience_s) const {
-    const std::string name = graph_.resolve(nodelet).substr(1);
+  // Of the nodelets in the handle's namespace.
+  explicit Diagnostics(ros::NodeHandle& handle) : handle_(handle), arrays_(handle, "/diagnostics") {}
+
+  // What the nodelet says first, from now on, that fits; its level is -1 if it never does.
+  Status await(const std::string& nodelet, const std::function<bool(const Status&)>& fits,
+               double patience_s = kPatience_s) const {
+    const std::string name = handle_.resolveName(nodelet).substr(1);
     const size_t before = arrays_.count();
     size_t seen = 0;
-    diagnostic_msgs::DiagnosticStatus found;
+    Status found;
     found.level = -1;
-    arrays_.await(
-        [&](const diagnostic_msgs::DiagnosticArray& array) {
-          if (++seen <= before) return false;
-          for (const diagnostic_msgs::DiagnosticStatus& status : array.status) {
-            if (status.name.find(name) == std::string::npos || status.level != level ||
-                status.message.find(words) == std::string::npos)
-              continue;
-            found = status;
-            return true;
-          }
-          return false;
-        },
-        patience_s);
+    const auto contains = [&](const diagnostic_msgs::DiagnosticArray& array) {
+      if (++seen <= before) return false;
+      for (const Status& status : array.status) {
+        if (status.name.find(name) == std::string::npos || !fits(status)) continue;
+        found = status;
+        return true;
+      }
+      return false;
+    };
+    arrays_.await(contains, patience_s);
     return found;
   }
-  bool says(const std::string& nodelet, int level, const std::string& words,
-            double patience_s = kPatience_s) const {
-    return await(nodelet, level, words, patience_s).level == level;
+  Status await(const std::string& nodelet, int level, const std::string& words,
+               double patience_s = kPatience_s) const {
+    const auto fits = [&](const Status& status) {
+      return status.level == level && status.message.find(words) != std::string::npos;
+    };
+    return await(nodelet, fits, patience_s);
+  }
+  bool says(const std::string& nodelet, int level, const std::string& words) const {
+    return await(nodelet, level, words).level == level;
   }
 
  private:
-  NodeletGraph& graph_;
+  ros::NodeHandle& handle_;
   Listener<diagnostic_msgs::DiagnosticArray> arrays_;
 };
 
 // The value of a key; empty if the nodelet does not give it.
-inline std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key) {
+inline std::string valueOf(const Diagnostics::Status& status, const std::string& key) {
   for (const diagnostic_msgs::KeyValue& value : status.values) {
     if (value.key == key) return value.value;
   }
   return "";
+}
+
+// Frames dropped, for whatever reason.
+inline uint64_t framesDropped(const Diagnostics::Status& status) {
+  uint64_t sum = 0;
+  for (const diagnostic_msgs::KeyValue& value : status.values) {
+    if (value.key.rfind("dropped: ", 0) == 0) sum += std::stoull(value.value);
+  }
+  return sum;
 }
 
 }  // namespace depth_fusion
