@@ -189,6 +189,24 @@ TEST(BlockSelection, ListsNoBlockFarBesideTheCamera) {
   }
 }
 
+TEST(BlockSelection, ListsNoBlockHiddenBehindTheSurface) {
+  BlockSparseMap map(compute(), mapParameters(8, 18, 0.016f));
+  map.allocate(windowBlocks(map));
+  const View view = viewOf(bumpyDepth(0.5), Pose::Identity());
+  double farthest_m = 0.0;
+  cv::minMaxLoc(view.depth, nullptr, &farthest_m);
+  const double block_m = 8 * 0.016;
+  const double hidden_m = farthest_m + 2.0 * map.parameters().truncation_m + std::sqrt(0.75) * block_m;
+  const std::set<int> visible = visibleSlots(map, frameOf(view), view.T_W_D);
+  size_t hidden = 0;
+  for (const BlockSparseMap::Block& block : map.blocks()) {
+    if (block_m * (block.index.z() + 0.5) < hidden_m + 1e-3) continue;
+    ++hidden;
+    EXPECT_EQ(visible.count(block.slot), 0u) << block.index.transpose();
+  }
+  EXPECT_GT(hidden, 300u);
+}
+
 TEST(BlockSelection, ListsEveryBlockThatAFilteredFrameUpdates) {
   BlockSparseMap map(compute(), mapParameters(8, 18, 0.016f));
   map.allocate(windowBlocks(map));
