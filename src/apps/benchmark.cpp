@@ -1,15 +1,14 @@
 // benchmark: how fast everything is, and the experiments behind docs/, a subcommand each, in benchmark/.
-#include <CLI/CLI.hpp>
-#include <iostream>
-
 #include "apps/benchmark/filters.h"
 #include "apps/benchmark/growth.h"
 #include "apps/benchmark/resolution.h"
 #include "apps/benchmark/suite.h"
 #include "apps/benchmark/tracking.h"
+#include "apps/command_line.h"
 
 int main(int argc, char** argv) {
-  CLI::App app("Measures how fast everything is, or runs an experiment and writes its tables and pictures.");
+  CLI::App app("Measures how fast everything is, or runs an experiment and writes its tables and pictures.",
+               "benchmark");
   app.require_subcommand(0, 1);
   depth_fusion::addFiltersBenchmark(app);
   depth_fusion::TrackingBenchmark tracking;
@@ -21,13 +20,8 @@ int main(int argc, char** argv) {
   depth_fusion::addGrowthBenchmark(app, growth);
   depth_fusion::TrackingBenchmark suite;
   depth_fusion::addBenchmarkSuite(app, suite);
-  try {
+  return depth_fusion::runApp(app, [&] {
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error);
-  } catch (const std::exception& error) {
-    std::cerr << "benchmark: " << error.what() << std::endl;
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

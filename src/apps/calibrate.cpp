@@ -1,11 +1,11 @@
 // Measures the systematic errors of a depth sensor from a recording of an ordinary scene.
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 
 #include "apps/calibrate/report.h"
 #include "apps/calibrate/tracked_recording.h"
+#include "apps/command_line.h"
 #include "depth_fusion/calibration/depth_scale.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
@@ -34,9 +34,8 @@ constexpr char kDescription[] =
 constexpr double kReadoutSigmas = 3.0;
 
 struct Options {
-  std::string input, output, camera_file, trajectory_file, device;
-  std::vector<std::string> parameter_files;
-  std::vector<double> intrinsics;
+  std::string input, output, trajectory_file, device;
+  RecordingArguments arguments;
   RecordingOptions recording;
   PipelineParameters parameters;
   TrackingRange range;
@@ -47,13 +46,7 @@ void addOptions(CLI::App& app, Options& options) {
   app.add_option("--input", options.input, "recording: a folder or a .bag file, as of reconstruct")
       ->required();
   app.add_option("--output", options.output, "folder for the results; made if missing")->required();
-  app.add_option("--params", options.parameter_files, "YAML files of parameters, as of reconstruct");
-  app.add_option("--camera", options.camera_file,
-                 "camera file in place of the recording's, as of reconstruct");
-  app.add_option("--intrinsics", options.intrinsics,
-                 "fx,fy,cx,cy of the depth camera, instead of the recording's")
-      ->delimiter(',')
-      ->expected(4);
+  addRecordingOptions(app, options.arguments, options.recording);
   app.add_option(
       "--trajectory", options.trajectory_file,
       "true poses (TUM format, or a folder that holds them): the depth's scale, and its stamps' delay");
@@ -66,8 +59,6 @@ void addOptions(CLI::App& app, Options& options) {
   app.add_option("--max-frames", options.range.count, "stop after so many frames; 0: at the end")
       ->capture_default_str();
   app.add_option("--device", options.device, "OpenCL device, as of reconstruct");
-  app.add_option("--depth-topic", options.recording.depth_topic, "of a bag, instead of the one found");
-  app.add_option("--color-topic", options.recording.color_topic, "of a bag, instead of the one found");
 }
 
 void findScale(const Options& options, const TrackedRecording& tracked, const Trajectory& truth,
@@ -130,29 +121,16 @@ void calibrate(Options& options) {
             << "/calibration.yaml, calibration.png, report.json" << std::endl;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app(kDescription);
-  Options options;
-  addOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
-  for (const std::string& file : options.parameter_files) loadParameterFile(options.parameters.table(), file);
-  if (!options.camera_file.empty()) readCamera(options.camera_file, options.recording);
-  if (!options.intrinsics.empty()) {
-    const std::vector<double>& given = options.intrinsics;
-    options.recording.intrinsics = CameraIntrinsics{0, 0, given[0], given[1], given[2], given[3]};
-  }
-  calibrate(options);
-  return 0;
-}
-
 }  // namespace
 }  // namespace depth_fusion
 
 int main(int argc, char** argv) {
-  try {
-    return depth_fusion::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "calibrate: " << error.what() << std::endl;
-    return 1;
-  }
+  CLI::App app(depth_fusion::kDescription, "calibrate");
+  depth_fusion::Options options;
+  addOptions(app, options);
+  return depth_fusion::runApp(app, [&] {
+    parse(app, argc, argv, options.arguments, options.parameters.table(), options.recording);
+    calibrate(options);
+    return 0;
+  });
 }

@@ -1,9 +1,9 @@
 // Measures trajectories against ground truth and meshes against the exact surface of a built-in scene.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "apps/command_line.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/evaluation/mesh_error.h"
 #include "depth_fusion/evaluation/trajectory_plot.h"
@@ -26,8 +26,8 @@ struct Arguments {
 void addOptions(CLI::App& app, Arguments& arguments) {
   auto* trajectory =
       app.add_option("-t,--trajectory", arguments.trajectory, "estimated trajectory (TUM format)");
-  auto* groundtruth =
-      app.add_option("-g,--groundtruth", arguments.groundtruth, "true trajectory (TUM format), or a recording's folder with poses");
+  auto* groundtruth = app.add_option("-g,--groundtruth", arguments.groundtruth,
+                                     "true trajectory (TUM format), or a recording's folder with poses");
   trajectory->needs(groundtruth);
   app.add_option("-p,--plot", arguments.plot, "picture of both trajectories to write (.png)")
       ->needs(trajectory);
@@ -158,15 +158,13 @@ void evaluate(const Arguments& arguments) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Measures trajectories against ground truth, and meshes against the exact surface of a built-in "
-      "scene.");
+      "scene.",
+      "evaluate");
   depth_fusion::Arguments arguments;
-  depth_fusion::addOptions(app, arguments);
-  CLI11_PARSE(app, argc, argv);
-  try {
-    depth_fusion::evaluate(arguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "evaluate: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  addOptions(app, arguments);
+  return depth_fusion::runApp(app, [&] {
+    app.parse(argc, argv);
+    evaluate(arguments);
+    return 0;
+  });
 }

@@ -1,10 +1,9 @@
 // plan_resolution: which N and M to map with, from what a recording or a mesh takes.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "apps/command_line.h"
 #include "apps/plan_resolution/count.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/evaluation/memory_plot.h"
@@ -25,9 +24,8 @@ constexpr char kDescription[] =
 struct Options {
   CountingOptions counting;
   PlanRequest request;
-  std::string output, camera_file;
-  std::vector<std::string> parameter_files;
-  std::vector<double> intrinsics;
+  std::string output;
+  RecordingArguments arguments;
   size_t limit_mib = 1536;
   bool no_trial = false;
 };
@@ -45,19 +43,12 @@ void addOptions(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--trajectory", counting.trajectory_file,
                  "the poses (TUM format, or a folder that holds poses); tracked if not given");
-  app.add_option("--params", options.parameter_files, "YAML files of parameters, as of reconstruct");
+  addRecordingOptions(app, options.arguments, counting.recording);
   app.add_option("--max-range", counting.parameters.preprocessing.max_range_m, "farthest depth used, metres")
       ->capture_default_str();
   app.add_option("--max-frames", counting.max_frames, "stop after so many frames")
       ->check(CLI::Range(1, 1000000000));
-  app.add_option("--intrinsics", options.intrinsics,
-                 "fx,fy,cx,cy of the depth camera, instead of the recording's")
-      ->delimiter(',')
-      ->expected(4);
-  app.add_option("--camera", options.camera_file, "camera file in place of the recording's");
   app.add_option("--device", counting.device, "OpenCL device, as of reconstruct");
-  app.add_option("--depth-topic", counting.recording.depth_topic, "of a bag, instead of the one found");
-  app.add_option("--color-topic", counting.recording.color_topic, "of a bag, instead of the one found");
   app.add_flag("--no-trial", options.no_trial,
                "by counting alone, without fusing a recording with the best choice; takes noise that fusion "
                "carves away "
@@ -142,40 +133,18 @@ void plan(Options& options) {
   writeChoice(best, options.request, options.output + "/map.yaml");
 }
 
-int run(int argc, char** argv) {
-  CLI::App app(kDescription);
-  Options options;
-  addOptions(app, options);
-  // The parameter files come first, then the options, whatever their order on the command line.
-  CLI11_PARSE(app, argc, argv);
-  CountingOptions& counting = options.counting;
-  if (!options.parameter_files.empty()) {
-    for (const std::string& file : options.parameter_files)
-      loadParameterFile(counting.parameters.table(), file);
-    CLI11_PARSE(app, argc, argv);
-  }
-  if (!options.camera_file.empty()) readCamera(options.camera_file, counting.recording);
-  if (!options.intrinsics.empty()) {
-    CameraIntrinsics camera;
-    camera.fx = options.intrinsics[0];
-    camera.fy = options.intrinsics[1];
-    camera.cx = options.intrinsics[2];
-    camera.cy = options.intrinsics[3];
-    counting.recording.intrinsics = camera;
-  }
-  validate(counting.parameters.table());
-  plan(options);
-  return 0;
-}
-
 }  // namespace
 }  // namespace depth_fusion
 
 int main(int argc, char** argv) {
-  try {
-    return depth_fusion::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "plan_resolution: " << error.what() << std::endl;
-    return 1;
-  }
+  CLI::App app(depth_fusion::kDescription, "plan_resolution");
+  depth_fusion::Options options;
+  addOptions(app, options);
+  return depth_fusion::runApp(app, [&] {
+    depth_fusion::CountingOptions& counting = options.counting;
+    parse(app, argc, argv, options.arguments, counting.parameters.table(), counting.recording);
+    validate(counting.parameters.table());
+    plan(options);
+    return 0;
+  });
 }

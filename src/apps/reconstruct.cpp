@@ -1,7 +1,7 @@
 // Fuses a recording into a mesh.
-#include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "apps/command_line.h"
 #include "apps/reconstruct/run.h"
 #include "depth_fusion/common/error.h"
 
@@ -10,7 +10,8 @@ namespace {
 
 constexpr char kDescription[] =
     "Fuses an RGB-D recording into a surface: mesh.ply, trajectory.txt (TUM format) and report.json.\n"
-    "The recording is a folder in the TUM or 7-Scenes layout or a .bag file; which one is found out by looking.\n"
+    "The recording is a folder in the TUM or 7-Scenes layout or a .bag file; which one is found out by "
+    "looking.\n"
     "The world frame is the first camera's (x right, y down, z forward), or that of --trajectory.\n\n"
     "Examples:\n"
     "  reconstruct --input desk --output out\n"
@@ -20,50 +21,46 @@ constexpr char kDescription[] =
 void listDevices() {
   const std::vector<DeviceInfo> devices = ComputeContext::listDevices();
   for (size_t i = 0; i < devices.size(); ++i) {
-    std::cout << "[" << i << "] " << devices[i].name << " (" << devices[i].platform << ", " << devices[i].version
-              << ", " << (devices[i].memory_bytes >> 20) << " MiB)\n";
+    std::cout << "[" << i << "] " << devices[i].name << " (" << devices[i].platform << ", "
+              << devices[i].version << ", " << (devices[i].memory_bytes >> 20) << " MiB)\n";
   }
   if (devices.empty()) std::cout << "no OpenCL device; the package pocl-opencl-icd brings one for the CPU\n";
 }
 
-CameraIntrinsics parseIntrinsics(const std::vector<double>& values) {
-  CameraIntrinsics camera;
-  camera.fx = values[0];
-  camera.fy = values[1];
-  camera.cx = values[2];
-  camera.cy = values[3];
-  return camera;
-}
+struct Arguments {
+  RecordingArguments recording;
+  std::string color_camera_file;
+  bool print_parameters = false;
+};
 
-void addOptions(CLI::App& app, RunOptions& options, std::vector<double>& intrinsics) {
+void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
   MapParameters& map = options.parameters.map;
   app.add_option("--input", options.input, "recording to fuse: a folder or a .bag file");
   app.add_option("--output", options.output, "folder for the results; made if missing");
   app.add_option("--voxel-size", map.voxel_size_m, "edge of a voxel in metres")->capture_default_str();
-  app.add_option("--blocks-per-axis", map.blocks_per_axis, "the window's size in blocks, N")->capture_default_str();
-  app.add_option("--block-size", map.block_size, "voxels per block axis, M: 4, 8, 16 or 32")->capture_default_str();
-  app.add_option("--truncation", map.truncation_m, "distance kept on both sides of a surface, metres; 0 = four voxels")
+  app.add_option("--blocks-per-axis", map.blocks_per_axis, "the window's size in blocks, N")
+      ->capture_default_str();
+  app.add_option("--block-size", map.block_size, "voxels per block axis, M: 4, 8, 16 or 32")
+      ->capture_default_str();
+  app.add_option("--truncation", map.truncation_m,
+                 "distance kept on both sides of a surface, metres; 0 = four voxels")
       ->capture_default_str();
   app.add_option("--max-range", options.parameters.preprocessing.max_range_m, "farthest depth used, metres")
       ->capture_default_str();
-  app.add_option("--intrinsics", intrinsics, "fx,fy,cx,cy of the depth camera, instead of the recording's")
-      ->delimiter(',')
-      ->expected(4);
-  app.add_option("--camera", options.camera_file,
-                 "camera file in place of the recording's: camera.yaml, or a calibration of ROS's camera_calibration, "
-                 "whose lens distortion is taken out");
-  app.add_option("--color-camera", options.color_camera_file,
-                 "camera file of a colour camera beside the depth camera, with depth_to_color; see cfg/cameras");
-  app.add_option("--params", options.parameter_files,
-                 "YAML files of `stage: {name: value}`, the later over the earlier; see --print-params");
-  app.add_option("--trajectory", options.trajectory_file, "fuse at these poses (TUM format, or a folder that holds poses) instead of tracking");
+  addRecordingOptions(app, arguments.recording, options.recording);
+  app.add_option(
+      "--color-camera", arguments.color_camera_file,
+      "camera file of a colour camera beside the depth camera, with depth_to_color; see cfg/cameras");
+  app.add_option("--trajectory", options.trajectory_file,
+                 "fuse at these poses (TUM format, or a folder that holds poses) instead of tracking");
   app.add_option("--max-frames", options.max_frames, "stop after so many frames")
       ->check(CLI::Range(1, 1000000000));
-  app.add_option("--device", options.device, "OpenCL device: index, part of its name, cpu or gpu; `list` shows them");
-  app.add_option("--depth-topic", options.recording.depth_topic, "of a bag, instead of the one found");
-  app.add_option("--color-topic", options.recording.color_topic, "of a bag, instead of the one found");
+  app.add_option("--device", options.device,
+                 "OpenCL device: index, part of its name, cpu or gpu; `list` shows them");
   app.add_flag("--color", map.color, "fuse colour, too: mesh.ply has the vertices' colours");
   app.add_flag("--no-mesh", options.no_mesh, "track and fuse only, for timing");
+  app.add_flag("--print-params", arguments.print_parameters,
+               "list every parameter with its value, range and meaning");
 }
 
 void printParameters(PipelineParameters& parameters) {
@@ -73,30 +70,14 @@ void printParameters(PipelineParameters& parameters) {
   }
 }
 
-int run(int argc, char** argv) {
-  CLI::App app(kDescription);
-  RunOptions options;
-  std::vector<double> intrinsics;
-  bool print_parameters = false;
-  addOptions(app, options, intrinsics);
-  app.add_flag("--print-params", print_parameters, "list every parameter with its value, range and meaning");
-
-  // The parameter files come first, then the options, whatever their order on the command line.
-  CLI11_PARSE(app, argc, argv);
-  if (!options.parameter_files.empty()) {
-    for (const std::string& file : options.parameter_files) loadParameterFile(options.parameters.table(), file);
-    CLI11_PARSE(app, argc, argv);
-  }
-  if (!options.camera_file.empty()) readCamera(options.camera_file, options.recording);
-  if (!options.color_camera_file.empty()) readColorCamera(options.color_camera_file, options.recording);
-  if (!intrinsics.empty()) options.recording.intrinsics = parseIntrinsics(intrinsics);
-
+int run(const Arguments& arguments, RunOptions& options) {
+  if (!arguments.color_camera_file.empty()) readColorCamera(arguments.color_camera_file, options.recording);
   if (options.device == "list") {
     listDevices();
     return 0;
   }
   validate(options.parameters.table());
-  if (print_parameters) {
+  if (arguments.print_parameters) {
     printParameters(options.parameters);
     return 0;
   }
@@ -108,10 +89,12 @@ int run(int argc, char** argv) {
 }  // namespace depth_fusion
 
 int main(int argc, char** argv) {
-  try {
-    return depth_fusion::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "reconstruct: " << error.what() << std::endl;
-    return 1;
-  }
+  CLI::App app(depth_fusion::kDescription, "reconstruct");
+  depth_fusion::Arguments arguments;
+  depth_fusion::RunOptions options;
+  addOptions(app, arguments, options);
+  return depth_fusion::runApp(app, [&] {
+    parse(app, argc, argv, arguments.recording, options.parameters.table(), options.recording);
+    return run(arguments, options);
+  });
 }

@@ -1,8 +1,8 @@
 // render: a picture of a mesh.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "apps/command_line.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/surface_mesh/mesh_picture.h"
 #include "depth_fusion/surface_mesh/ply.h"
@@ -21,7 +21,7 @@ struct Options {
   bool shaded = false;
 };
 
-void declareOptions(CLI::App& app, Options& options) {
+void addOptions(CLI::App& app, Options& options) {
   app.option_defaults()->always_capture_default();
   app.add_option("--mesh", options.mesh, "binary PLY file, as reconstruct writes it")->required();
   app.add_option("--output", options.output, "picture to write; the name's ending tells the format");
@@ -61,7 +61,8 @@ void render(const Options& options) {
   const CameraIntrinsics camera =
       pictureCamera(options.width, options.height, options.view_deg * CV_PI / 180.0);
   const Pose T_W_C = options.pose.empty() ? viewOf(mesh, camera, options.view) : poseFrom(options.pose);
-  writePicture(options.output, renderMesh(mesh, camera, T_W_C, options.shaded ? MeshPaint::kShaded : MeshPaint::kColors));
+  writePicture(options.output,
+               renderMesh(mesh, camera, T_W_C, options.shaded ? MeshPaint::kShaded : MeshPaint::kColors));
   std::cout << options.output << ": " << mesh.triangles.size() << " triangles\n";
 }
 
@@ -69,15 +70,14 @@ void render(const Options& options) {
 }  // namespace depth_fusion
 
 int main(int argc, char** argv) {
-  CLI::App app("Draws a picture of a mesh: in its colours, dark where seen from behind, or shaded in grey and red.");
+  CLI::App app(
+      "Draws a picture of a mesh: in its colours, dark where seen from behind, or shaded in grey and red.",
+      "render");
   depth_fusion::Options options;
-  depth_fusion::declareOptions(app, options);
-  CLI11_PARSE(app, argc, argv);
-  try {
-    depth_fusion::render(options);
-  } catch (const std::exception& error) {
-    std::cerr << "render: " << error.what() << "\n";
-    return 1;
-  }
-  return 0;
+  addOptions(app, options);
+  return depth_fusion::runApp(app, [&] {
+    app.parse(argc, argv);
+    render(options);
+    return 0;
+  });
 }

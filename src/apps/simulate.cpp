@@ -1,10 +1,10 @@
 // Records a built-in scene with a simulated RGB-D sensor.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
+#include "apps/command_line.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/simulation/simulated_recording.h"
 #include "ros/recording.h"
@@ -68,8 +68,7 @@ RgbdFrame asStored(RgbdFrame frame, double depth_unit_m) {
 void showProgress(size_t frame, size_t frames) {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   if (terminal || frame % 50 == 0 || frame == frames) {
-    std::printf("%sframe %zu/%zu%s", terminal ? "\r" : "", frame, frames,
-                terminal && frame < frames ? "" : "\n");
+    std::printf("frame %zu/%zu%s", frame, frames, terminal && frame < frames ? "\r" : "\n");
   }
   std::fflush(stdout);
 }
@@ -93,15 +92,13 @@ void simulate(const Arguments& arguments) {
 }  // namespace depth_fusion
 
 int main(int argc, char** argv) {
-  CLI::App app("Records a built-in scene with a simulated hand-held RGB-D sensor, with exact poses.");
+  CLI::App app("Records a built-in scene with a simulated hand-held RGB-D sensor, with exact poses.",
+               "simulate");
   depth_fusion::Arguments arguments;
-  depth_fusion::addOptions(app, arguments);
-  CLI11_PARSE(app, argc, argv);
-  try {
-    depth_fusion::simulate(arguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%ssimulate: %s\n", isatty(STDOUT_FILENO) != 0 ? "\n" : "", error.what());
-    return 1;
-  }
-  return 0;
+  addOptions(app, arguments);
+  return depth_fusion::runApp(app, [&] {
+    app.parse(argc, argv);
+    simulate(arguments);
+    return 0;
+  });
 }

@@ -31,10 +31,10 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   if (next != nullptr) prepared_ = std::async(std::launch::async, [this, after = *next] { return prepare(after); });
   if (tracked) {
     fuse(frame, *depth, result);
-    if (result.fused()) view_ = &mapper_.render(result.tracking.T_W_D, timers_);
+    if (result.fusion.fused()) view_ = &mapper_.render(result.tracking.T_W_D, timers_);
   }
   if (next != nullptr) prepared_.wait();
-  if (tracked && !result.fused()) withdraw();
+  if (tracked && !result.fusion.fused()) withdraw();
   return result;
 }
 
@@ -80,7 +80,7 @@ void ReconstructionPipeline::fuse(const RgbdFrame& frame, const DepthFrame& dept
   const MappingResult mapping = mapper_.fuse(frame, depth, result.tracking.T_W_D, timers_);
   result.fusion = mapping.fusion;
   result.color = mapping.color;
-  if (mapping.fused()) return;
+  if (mapping.fusion.fused()) return;
   result.tracking.status = TrackingStatus::kLost;
   result.tracking.reason = notFusedReason();
 }

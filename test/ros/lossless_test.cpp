@@ -47,6 +47,7 @@ TEST(Lossless, GivesTheOfflineTrajectoryAndMap) {
   Listener<MapStatus> map_status(graph.handle(), "tsdf_fusion/status");
   graph.handle().setParam("icp_tracking/level_start", false);
   graph.handle().setParam("acquisition/recording", bag);
+  graph.handle().setParam("acquisition/device", "none such");  // not opened: the bag is registered
   graph.handle().setParam("acquisition/lossless", true);
   graph.handle().setParam("acquisition/rate", 100.0);
   graph.loadTracking();

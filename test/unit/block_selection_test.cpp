@@ -170,8 +170,7 @@ TEST_P(SelectionOfBlockSize, ListsEveryBlockThatTheFrameUpdates) {
   map.allocate(windowBlocks(map));
   for (const double turn : {0.0, 1.0, 4.0, -7.0}) {
     const View view = viewOf(bumpyDepth(0.9), somePose(turn));
-    const std::set<int> visible =
-        visibleSlots(map, frameOf(view), view.T_W_D);
+    const std::set<int> visible = visibleSlots(map, frameOf(view), view.T_W_D);
     expectCoverage(visible, slotsToUpdate(map, view), map.usage().blocks);
   }
 }
@@ -187,6 +186,35 @@ TEST(BlockSelection, ListsNoBlockFarBesideTheCamera) {
     const bool beside = std::abs(centre.z()) < block_m && centre.head<2>().norm() > 4.0 * block_m;
     EXPECT_FALSE(beside && visible.count(block.slot)) << block.index.transpose();
   }
+}
+
+TEST(BlockSelection, ListsWhatIsSeenThroughAGap) {
+  BlockSparseMap map(compute(), mapParameters(8, 18, 0.016f));
+  map.allocate(windowBlocks(map));
+  cv::Mat depth = bumpyDepth(0.5);
+  depth(cv::Rect(64, 48, DEPTH_TILE, DEPTH_TILE)).setTo(1.0);
+  const View view = viewOf(depth, Pose::Identity());
+  const std::set<int> visible = visibleSlots(map, frameOf(view), view.T_W_D),
+                      needed = slotsToUpdate(map, view);
+  EXPECT_TRUE(std::includes(visible.begin(), visible.end(), needed.begin(), needed.end()));
+}
+
+TEST(BlockSelection, ListsNoBlockHiddenBehindTheSurface) {
+  BlockSparseMap map(compute(), mapParameters(8, 18, 0.016f));
+  map.allocate(windowBlocks(map));
+  const View view = viewOf(bumpyDepth(0.5), Pose::Identity());
+  double farthest_m = 0.0;
+  cv::minMaxLoc(view.depth, nullptr, &farthest_m);
+  const double block_m = 8 * 0.016;
+  const double hidden_m = farthest_m + 2.0 * map.parameters().truncation_m + std::sqrt(0.75) * block_m;
+  const std::set<int> visible = visibleSlots(map, frameOf(view), view.T_W_D);
+  size_t hidden = 0;
+  for (const BlockSparseMap::Block& block : map.blocks()) {
+    if (block_m * (block.index.z() + 0.5) < hidden_m + 1e-3) continue;
+    ++hidden;
+    EXPECT_EQ(visible.count(block.slot), 0u) << block.index.transpose();
+  }
+  EXPECT_GT(hidden, 300u);
 }
 
 TEST(BlockSelection, ListsEveryBlockThatAFilteredFrameUpdates) {

@@ -102,8 +102,8 @@ TEST(DepthPreprocessor, DepthIsCorrectedByTheOffsets) {
     const CameraIntrinsics camera = cameraOfSize(49, 38);
     const cv::Mat offsets = spreadOffsets(grid, {camera.width, camera.height});
     cv::Mat input(camera.height, camera.width, type);
-    cv::RNG(5).fill(input, cv::RNG::UNIFORM, 0, type == CV_16UC1 ? 8000 : 8);
-    const double unit_m = type == CV_16UC1 ? 0.001 : 1.0;
+    cv::RNG(5).fill(input, cv::RNG::UNIFORM, 0, type == CV_16UC1 ? 8000 : 16);
+    const double unit_m = type == CV_16UC1 ? 0.001 : 0.5;
     DepthPreprocessor preprocessor(compute(), {}, camera);
     preprocessor.setParameters(parameters, {});
     cv::Mat depth = readImage(preprocessor.process(frameOf(input, unit_m)).raw_depth, camera);

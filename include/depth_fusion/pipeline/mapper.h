@@ -12,9 +12,6 @@ namespace depth_fusion {
 struct MappingResult {
   FusionResult fusion;
   ColorFusionResult color;
-
-  // The frame left something in the map.
-  bool fused() const { return fusion.blocks_updated > 0; }
 };
 
 class Mapper {

@@ -12,9 +12,6 @@ struct FrameResult {
   TrackingResult tracking;
   FusionResult fusion;  // all zero if the frame was not fused
   ColorFusionResult color;
-
-  // The frame left something in the map.
-  bool fused() const { return fusion.blocks_updated > 0; }
 };
 
 // Tracks and fuses frame by frame. W is the first fused frame's camera frame, or that of the given

@@ -30,6 +30,9 @@ struct FusionResult {
   size_t blocks_updated = 0;
   size_t blocks_released = 0;
   size_t points_outside = 0;  // samples of the surface outside of the window: left out
+
+  // The frame left something in the map.
+  bool fused() const { return blocks_updated > 0; }
 };
 
 class TsdfFusion {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/recording.h"
@@ -12,8 +11,6 @@ namespace depth_fusion {
 struct RunOptions {
   std::string input;
   std::string output;
-  std::vector<std::string> parameter_files;
-  std::string camera_file, color_camera_file;
   std::string trajectory_file;
   std::string device;
   size_t max_frames = 0;  // 0 = all
@@ -22,8 +19,9 @@ struct RunOptions {
   PipelineParameters parameters;
 };
 
-// Fuses the recording and writes mesh, trajectory and report. Returns the exit status: 1 if a frame could not be read,
-// the pool was full, or a file could not be written, each said on standard error. Throws Error if nothing can start.
+// Fuses the recording and writes mesh, trajectory and report. Returns the exit status: 1 if a frame could not
+// be read, the pool was full, or a file could not be written, each said on standard error. Throws Error if
+// nothing can start.
 int reconstruct(const RunOptions& options);
 
 }  // namespace depth_fusion

@@ -7,9 +7,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/percentile.h"
-#include "depth_fusion/registration/frame_registration.h"
 #include "ros/messages.h"
-#include "ros/nodelets/shared_map.h"
 
 namespace depth_fusion {
 namespace {
@@ -18,6 +16,13 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kLastFrames_s = 1.0;  // until the last ones are through
 constexpr size_t kMaxLatencies = 100000;
+
+// All images in one frame.
+RegistrationParameters ontoColor() {
+  RegistrationParameters registration;
+  registration.depth_to_color = true;
+  return registration;
+}
 
 }  // namespace
 
@@ -28,6 +33,8 @@ ParameterTable PlayerParameters::table() {
         "camera file in place of the recording's; lens distortion is taken out"},
        {"depth_topic", &options.depth_topic, 0, 0, "of a bag, instead of the one found"},
        {"color_topic", &options.color_topic, 0, 0, "of a bag, instead of the one found"},
+       {"device", &device, 0, 0,
+        "OpenCL device, as of icp_tracking; opened where depth is to be moved or a lens undistorted"},
        {"frame_id", &frame_id, 0, 0, "optical frame of a recording's images"},
        {"rate", &rate, 0.01, 100.0, "factor on the recording's speed"},
        {"loop", &loop, 0, 1, "begin again at the end; the clock then jumps back"},
@@ -39,9 +46,8 @@ ParameterTable PlayerParameters::table() {
 }
 
 RecordingPlayer::RecordingPlayer(const SourceHost& host, const PlayerParameters& parameters)
-    : FrameSource(host), parameters_(parameters) {
+    : FrameSource(host), parameters_(parameters), registration_(parameters.device, ontoColor()) {
   if (!parameters_.camera_file.empty()) readCamera(parameters_.camera_file, parameters_.options);
-  compute_ = sharedCompute("");
   recording_ = open();
   ROS_INFO_STREAM(host_.name << ": " << recording_->description());
   ros::NodeHandle handle = host_.handle;
@@ -68,10 +74,8 @@ RecordingPlayer::~RecordingPlayer() {
   tracker_subscriber_.shutdown();
 }
 
-std::unique_ptr<Recording> RecordingPlayer::open() {
-  RegistrationParameters registration;
-  registration.depth_to_color = true;  // all images are in one frame
-  return registered(openRecording(parameters_.recording, parameters_.options), *compute_, registration);
+std::unique_ptr<Recording> RecordingPlayer::open() const {
+  return openRecording(parameters_.recording, parameters_.options);
 }
 
 void RecordingPlayer::run() {
@@ -118,6 +122,7 @@ void RecordingPlayer::playOnce() {
     try {
       const StageTimers::Scope timer(timers, "recording/read");
       frame = recording_->next();
+      if (frame) frame = registration_.process(*frame);
     } catch (const Error& error) {
       host_.counter.receive();
       host_.counter.drop("unreadable");

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "depth_fusion/common/parameters.h"
-#include "depth_fusion/compute/compute_context.h"
 #include "ros/nodelets/frame_source.h"
+#include "ros/nodelets/lazy_registration.h"
 #include "ros/recording.h"
 
 namespace depth_fusion {
 
 struct PlayerParameters {
-  std::string recording, camera_file, frame_id = "camera_rgb_optical_frame";
+  std::string recording, camera_file, device, frame_id = "camera_rgb_optical_frame";
   RecordingOptions options;
   bool lossless = false, loop = false, restamp = false, publish_clock = false;
   float rate = 1.0f, lossless_timeout_s = 60.0f, settle_s = 1.0f;
@@ -33,7 +33,7 @@ class RecordingPlayer : public FrameSource {
   void run() override;
 
  private:
-  std::unique_ptr<Recording> open();
+  std::unique_ptr<Recording> open() const;
   void play();
   void playOnce();
   // Until everybody has connected who will.
@@ -50,7 +50,7 @@ class RecordingPlayer : public FrameSource {
   std::string summary();
 
   PlayerParameters parameters_;
-  std::shared_ptr<ComputeContext> compute_;
+  LazyRegistration registration_;
   std::unique_ptr<Recording> recording_;
   ros::Publisher depth_publisher_, depth_info_publisher_, color_publisher_, color_info_publisher_,
       clock_publisher_;

@@ -6,7 +6,6 @@
 #include "depth_fusion/common/error.h"
 #include "ros/image_conversions.h"
 #include "ros/messages.h"
-#include "ros/nodelets/shared_map.h"
 
 namespace depth_fusion {
 namespace {
@@ -39,7 +38,7 @@ RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& par
                                const std::string& device, FrameCounter& counter, Callback callback)
     : handle_(handle),
       parameters_(parameters),
-      device_(device),
+      registration_(device, parameters.registration),
       counter_(counter),
       callback_(std::move(callback)) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -113,7 +112,7 @@ void RgbdSubscriber::subscribe(ros::NodeHandle& handle) {
 void RgbdSubscriber::setParameters(const RgbdParameters& parameters) {
   const std::lock_guard<std::mutex> lock(mutex_);
   parameters_ = parameters;
-  if (registration_ != nullptr) registration_->setParameters(parameters.registration);
+  registration_.setParameters(parameters.registration);
 }
 
 std::string RgbdSubscriber::problem() const {
@@ -218,16 +217,8 @@ bool RgbdSubscriber::knowsCameras(const std_msgs::Header& depth) {
 }
 
 void RgbdSubscriber::registerFrame(SensorFrame& frame) {
-  if (!needsRegistration(frame.rgbd, parameters_.registration)) {
-    frame.rgbd = withDepthUnit(frame.rgbd, parameters_.registration);
-    return;
-  }
-  if (registration_ == nullptr) {
-    compute_ = sharedCompute(device_)->anotherQueue();
-    registration_ = std::make_unique<FrameRegistration>(*compute_, parameters_.registration);
-  }
   const bool was_beside = frame.rgbd.T_C_D.has_value();
-  frame.rgbd = registration_->process(frame.rgbd);
+  frame.rgbd = registration_.process(frame.rgbd);
   if (was_beside && !frame.rgbd.T_C_D) frame.header.frame_id = color_info_->header.frame_id;
 }
 

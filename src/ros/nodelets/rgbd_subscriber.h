@@ -14,9 +14,9 @@
 #include <optional>
 #include <string>
 
-#include "depth_fusion/registration/frame_registration.h"
 #include "ros/nodelets/frame_counter.h"
 #include "ros/nodelets/frames.h"
+#include "ros/nodelets/lazy_registration.h"
 
 namespace depth_fusion {
 
@@ -86,7 +86,7 @@ class RgbdSubscriber {
 
   ros::NodeHandle handle_;
   RgbdParameters parameters_;
-  std::string device_;
+  LazyRegistration registration_;
   FrameCounter& counter_;
   Callback callback_;
   mutable std::mutex mutex_;
@@ -103,8 +103,6 @@ class RgbdSubscriber {
   // Made when first needed:
   std::unique_ptr<tf2_ros::Buffer> tf_;
   std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
-  std::unique_ptr<ComputeContext> compute_;
-  std::unique_ptr<FrameRegistration> registration_;
 };
 
 }  // namespace depth_fusion

@@ -229,7 +229,7 @@ TsdfFusionNodelet::Outcome TsdfFusionNodelet::fuse(const TrackedFrame& frame, St
   Mapper& mapper = map_->mapper(camera_);
   const MappingResult result = mapper.fuse(rgbd, depth, T_W_D, timers);
   if (map_->isFollowed()) map_->noteUpdated(mapper.updatedBlocks(result));
-  if (!result.fused()) return {false, false, notFusedReason()};
+  if (!result.fusion.fused()) return {false, false, notFusedReason()};
   return {true, true, leftOutReason(result), result.fusion.blocks_requested - result.fusion.blocks_allocated};
 }
 
