@@ -11,9 +11,6 @@
 #include "tsdf_fusion/filter_rules.h"
 #include "tsdf_fusion/measured_distance.h"
 
-#define SLICE_VOXELS (ITEM_VOXELS == 1 ? 1 : BLOCK_SIZE * BLOCK_SIZE)
-#define SLICE_VECTORS (SLICE_VOXELS / SIMD_WIDTH)
-
 // Rounds up or down at random, so that the mean stays; truncation of a positive number rounds down.
 inline vint dithered(vfloat value, vfloat random) { return TO_VINT(value + (random + 512.0f)) - 512; }
 
@@ -21,21 +18,26 @@ inline vuchar magnitude(vchar value) {
   return AS_VUCHAR(select(value, (vchar)(-value), (vchar)(value < (vchar)(0))));
 }
 
+// Which octant of its block a voxel lies in.
 #define HALF_BLOCK_LOG2 (BLOCK_SIZE_LOG2 - 1)
+#define OCTANT(voxel)                                                                                       \
+  (((voxel) >> HALF_BLOCK_LOG2 & 1) | ((voxel) >> (BLOCK_SIZE_LOG2 + HALF_BLOCK_LOG2) & 1) << 1 |           \
+   ((voxel) >> (2 * BLOCK_SIZE_LOG2 + HALF_BLOCK_LOG2) & 1) << 2)
+#define LANE_OCTANT_BITS TO_VUCHAR((vint)(1) << OCTANT(LANE_INDICES))
 
-// The bits of BLOCK_NEAR_SURFACE of a vector of voxels.
-inline vint octant_bits(int first_voxel) {
-  const vint voxel = first_voxel + LANE_INDICES;
-  const vint octant = (voxel >> HALF_BLOCK_LOG2 & 1) | (voxel >> (BLOCK_SIZE_LOG2 + HALF_BLOCK_LOG2) & 1) << 1 |
-                      (voxel >> (2 * BLOCK_SIZE_LOG2 + HALF_BLOCK_LOG2) & 1) << 2;
-  return (vint)(1) << (octant + BLOCK_NEAR_SURFACE_SHIFT);
-}
-
-inline int any_bits(vint bits) {
-  int lanes[SIMD_WIDTH];
+inline int any_bits(vuchar bits) {
+  uchar lanes[SIMD_WIDTH];
   VSTORE(bits, lanes);
   for (int i = 1; i < SIMD_WIDTH; ++i) lanes[0] |= lanes[i];
   return lanes[0];
+}
+
+// Asks for the distances that a work-item will read.
+inline void prefetch_distances(int item, __global const char *voxels, __global const int *visible, int visible_count) {
+  if (item / ITEMS_PER_BLOCK >= visible_count) return;
+  __global const char *distances =
+      voxels + block_distances(visible[item / ITEMS_PER_BLOCK]) + item % ITEMS_PER_BLOCK * ITEM_VOXELS;
+  for (int i = 0; i < ITEM_VOXELS; i += CACHE_LINE) PREFETCH(distances + i);
 }
 
 __kernel void integrate_blocks(__global char *voxels, __global const int *visible, int visible_count,
@@ -54,6 +56,7 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
   __global uchar *certainties = (__global uchar *)voxels + block_certainties(slot);
   const float steps_per_m = TSDF_MAX / grid.truncation_m;
   const float free_steps_per_m = args.free_space_sigmas * steps_per_m;
+  prefetch_distances(item + 1, voxels, visible, visible_count);
   const BlockProjection projection = block_projection(block, T_D_W, camera, grid.voxel_size_m);
   const uint phase_of_first = dither_phase(0, block, args.frame);
 
@@ -61,25 +64,27 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
   const float3 middle = transform_point(T_D_W, (convert_float3(block) + 0.5f) * block_m);
   const float ray_length = length(middle) / fmax(middle.z, grid.voxel_size_m);
   const vuchar near_steps = (vuchar)(min(1.7320508f * grid.voxel_size_m * steps_per_m, (float)TSDF_MAX));
-  vint state = 0;
+  vuchar data = 0, octants = 0;
 
-  for (int slice = first_voxel; slice < first_voxel + ITEM_VOXELS; slice += SLICE_VOXELS) {
-    // A slice's pixels are read before any is used, so that a CPU need not wait for one after the other.
-    vuint words[SLICE_VECTORS];
-    for (int i = 0; i < SLICE_VECTORS; ++i) {
-      words[i] = GATHER(vuint, measurements, voxel_pixels(projection, slice + i * SIMD_WIDTH, camera));
+  for (int part = first_voxel; part < first_voxel + ITEM_VOXELS; part += PART_VOXELS) {
+    // All of a part's pixels are found before any is read, so that a CPU need not wait for one after the other.
+    const Points from_first_part = from_first_voxel(&projection, part);
+    vint pixels[PART_VECTORS];
+    for (int i = 0; i < PART_VECTORS; ++i) {
+      pixels[i] = pixels_of(sum_of(projection.first_part[i], from_first_part), camera);
     }
-    for (int i = 0; i < SLICE_VECTORS; ++i) {
-      const int voxel = slice + i * SIMD_WIDTH;
-      const Measurement measured = unpack_measurement(words[i], args.depth_step_m);
-      const MeasuredDistance surface =
-          measured_distance(voxel_points(projection, voxel, camera), measured, ray_length, measurements, normals,
-                            camera, grid.truncation_m, args.depth_step_m);
+    for (int i = 0; i < PART_VECTORS; ++i) {
+      const int voxel = part + i * SIMD_WIDTH;
+      const vuint word = gather_from_memory(measurements, (const int *)(pixels + i));
+      const Measurement measured = unpack_measurement(word, args.depth_step_m);
+      const Points points = unscaled(sum_of(projection.first_part[i], from_first_part), camera);
+      const MeasuredDistance surface = measured_distance(points, measured, ray_length, measurements, normals, camera,
+                                                         grid.truncation_m, args.depth_step_m);
       const vfloat steps = surface.distance_m * steps_per_m;
 
       vchar distance = ALIGNED(vchar, distances + voxel);
       const vint known = TO_VINT(distance) != TSDF_CHI;
-      const vint seen = (words[i] != 0) & (steps >= -TSDF_MAX);
+      const vint seen = (word != 0) & (steps >= -TSDF_MAX);
       const vint hit = seen & (steps <= TSDF_MAX);
       if (ANY(hit | (seen & known))) {
         const vuchar old_byte = ALIGNED(vuchar, certainties + voxel);
@@ -87,7 +92,7 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
         const vfloat axial_m = AXIAL_SIGMA_M(sensor, measured.depth_m) * surface.slope;
         const vint beyond = (steps - TSDF_MAX) * measured.accuracy > free_steps_per_m * axial_m;
         const vint freed = seen & beyond & known;
-        const vuint phase = phase_of_first + DITHER_STEP * (AS_VUINT(LANE_INDICES) + (uint)voxel);
+        const vuint phase = DITHER_STEP * AS_VUINT(LANE_INDICES) + (phase_of_first + DITHER_STEP * (uint)voxel);
         const vfloat random = TO_VFLOAT(AS_VINT(phase >> 8)) * (1.0f / 16777216.0f);
         const FilterStep step = fuse_measurement(TO_VINT(old_byte), known, args.units_per_m2 * axial_m * axial_m,
                                                  measured.accuracy * measured.accuracy, args);
@@ -105,11 +110,13 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
         ALIGNED(vchar, distances + voxel) = distance;
         ALIGNED(vuchar, certainties + voxel) = new_byte;
       }
-      state |= select((vint)(0), (vint)(BLOCK_HAS_DATA), TO_VINT(distance != (vchar)(TSDF_CHI)));
-      state |= select((vint)(0), octant_bits(voxel), TO_VINT(magnitude(distance) <= near_steps));
+      const vuchar octant_bits = LANE_OCTANT_BITS << (uchar)OCTANT(voxel);
+      data |= AS_VUCHAR(distance) ^ (uchar)(TSDF_CHI);
+      octants |= select((vuchar)(0), octant_bits, TO_VMASK8(magnitude(distance) <= near_steps));
     }
   }
 
-  const int bits = any_bits(state);
+  const int bits =
+      (any_bits(data) != 0 ? BLOCK_HAS_DATA : 0) | any_bits(octants) << BLOCK_NEAR_SURFACE_SHIFT;
   if ((block_states[slot] & bits) != bits) atomic_or(block_states + slot, bits);
 }
