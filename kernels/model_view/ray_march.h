@@ -39,7 +39,7 @@ inline Rays make_rays(vint u, vint v, const CameraArgs camera, const TransformAr
 // Where the rays of a patch have come to.
 typedef struct {
   Rays rays;
-  TileRange tile;
+  ulong bins;  // where there may be a surface
   vfloat t, previous_t;
   vint previous;  // distance at previous_t
   vint active;
@@ -53,12 +53,12 @@ typedef struct {
   vint distance;
 } Voxels;
 
-// `rays` where `active`, from where their tile has a surface.
-inline March begin_march(const Rays rays, vint active, const TileRange tile, const RayRangeArgs range) {
+// `rays` where `active`, from where their tiles have a surface.
+inline March begin_march(const Rays rays, vint active, vfloat nearest_m, ulong bins, const RayRangeArgs range) {
   March march;
   march.rays = rays;
-  march.tile = tile;
-  march.t = march.previous_t = tile.nearest_m;
+  march.bins = bins;
+  march.t = march.previous_t = nearest_m;
   march.previous = TSDF_CHI;
   march.active = active & (march.t < range.max_m);
   march.hit_t = 0.0f;
@@ -134,7 +134,7 @@ inline void advance(March *march, const Voxels at, const Point origin, const Gri
     next_t = select(step_out_of_block(*march, at, origin), next_t, at.allocated);
     if (!ANY(march->active & at.allocated)) {
       const float least_t = LEAST(select((vfloat)(MAXFLOAT), next_t, march->active));
-      next_t = max(next_t, next_occupied(march->tile.bins, least_t, range));
+      next_t = max(next_t, next_occupied(march->bins, least_t, range));
     }
   }
   march->previous_t = march->t;
