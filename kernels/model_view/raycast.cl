@@ -40,7 +40,7 @@ inline Surface find_beside(const Rays rays, const Rays first_rays, const Surface
   const vfloat t = first.t * along(first_rays, first) / along(rays, first);
   const vint expected = in_view & first.known & (fabs(t - first.t) < 3.0f * rays.t_per_voxel);
   Surface surface = find_surface(rays, t, expected, origin, offsets, voxels, grid);
-  surface.known &= fabs(surface.t - t) < 0.5f * rays.t_per_voxel;
+  surface.known &= fabs(surface.t - t) < rays.t_per_voxel;
   return surface;
 }
 
