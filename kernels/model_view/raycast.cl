@@ -91,6 +91,7 @@ typedef struct {
 } PixelList;
 
 inline void append(PixelList *list, vint column, vint row, vint wanted) {
+  if (!ANY(wanted)) return;
   uint pixels[SIMD_WIDTH];
   int is_wanted[SIMD_WIDTH];
   VSTORE(AS_VUINT(column | row << 16), pixels);
