@@ -37,9 +37,9 @@ inline int8 tile_at(float8 pixel, int size) {
 // Adds a range to a tile's.
 inline void widen(int tile, float start, ulong bins, __global int *nearest, __global uint *occupied) {
   if (nearest[tile] > as_int(start)) atomic_min(nearest + tile, as_int(start));
-  const uint2 missing = as_uint2(bins & ~((__global const ulong *)occupied)[tile]);
-  if (missing.x) atomic_or(occupied + 2 * tile, missing.x);
-  if (missing.y) atomic_or(occupied + 2 * tile + 1, missing.y);
+  const uint low = (uint)bins, high = (uint)(bins >> 32);
+  if (low & ~occupied[2 * tile]) atomic_or(occupied + 2 * tile, low);
+  if (high & ~occupied[2 * tile + 1]) atomic_or(occupied + 2 * tile + 1, high);
 }
 
 __kernel void splat_block_ranges(__global const int *groups, int group_count, int slots,
