@@ -1,37 +1,45 @@
 // Where the rays of each tile of the view can hit, by the octants of blocks that are near the surface. A work-item projects
-// those of a slot of the groups in view.
+// those of a slot of the groups in view, an octant a lane.
 #include "model_view/ray_ranges.h"
 #include "shared/block_map.h"
 #include "shared/image.h"
 
+// Sides of the block's middle that the octants lie on.
+#define SIDE_X ((float8)(-1, 1, -1, 1, -1, 1, -1, 1))
+#define SIDE_Y ((float8)(-1, -1, 1, 1, -1, -1, 1, 1))
+#define SIDE_Z ((float8)(-1, -1, -1, -1, 1, 1, 1, 1))
+
+// What an octant covers: metres, and pixels along one axis of the image.
 typedef struct {
-  float3 lowest, highest;  // corners of a box along the axes of frame D
-} Box;
+  float8 lowest, highest;
+} Extents;
 
-inline void splat_box(const Box box, __global int *nearest, __global uint *occupied, const CameraArgs camera,
-                      const RayRangeArgs range) {
-  const float start = fmax(box.lowest.z, range.min_m), end = fmin(box.highest.z, range.max_m);
-  if (start > end) return;
-  // a box that reaches behind the camera covers what its part ahead of it covers
-  const float near = 1.0f / fmax(box.lowest.z, 1e-3f), far = 1.0f / box.highest.z;
-  const float u0 = camera.fx * fmin(box.lowest.x * near, box.lowest.x * far) + camera.cx;
-  const float u1 = camera.fx * fmax(box.highest.x * near, box.highest.x * far) + camera.cx;
-  const float v0 = camera.fy * fmin(box.lowest.y * near, box.lowest.y * far) + camera.cy;
-  const float v1 = camera.fy * fmax(box.highest.y * near, box.highest.y * far) + camera.cy;
-  if (u1 < 0.0f || v1 < 0.0f || u0 > camera.width - 1 || v0 > camera.height - 1) return;
-  const int x0 = (int)fmax(u0, 0.0f) / RANGE_TILE, x1 = (int)fmin(u1 + 1.0f, camera.width - 1.0f) / RANGE_TILE;
-  const int y0 = (int)fmax(v0, 0.0f) / RANGE_TILE, y1 = (int)fmin(v1 + 1.0f, camera.height - 1.0f) / RANGE_TILE;
+inline Extents depth_extents(float8 centre_z, float reach_z) {
+  const Extents depth = {centre_z - reach_z, centre_z + reach_z};
+  return depth;
+}
 
-  const int first_bin = depth_bin(start, range);
-  const ulong bins = ((2ul << (depth_bin(end, range) - first_bin)) - 1) << first_bin;
+// Of boxes along the axes of frame D. One that reaches behind the camera covers what its part ahead of it covers.
+inline Extents pixel_extents(float8 centre, float reach, const Extents depth, float focal_length, float image_centre) {
+  const float8 near = focal_length / max(depth.lowest, (float8)(1e-3f)), far = focal_length / depth.highest;
+  const float8 lowest = centre - reach, highest = centre + reach;
+  const Extents pixels = {min(lowest * near, lowest * far) + image_centre,
+                          max(highest * near, highest * far) + image_centre};
+  return pixels;
+}
+
+inline int8 in_image(const Extents pixels, int size) { return (pixels.highest >= 0.0f) & (pixels.lowest <= size - 1); }
+
+inline int8 tile_at(float8 pixel, int size) {
+  return convert_int8(clamp(pixel, (float8)(0.0f), (float8)(size - 1.0f))) / RANGE_TILE;
+}
+
+// Adds a range to a tile's.
+inline void widen(int tile, float start, ulong bins, __global int *nearest, __global uint *occupied) {
+  if (nearest[tile] > as_int(start)) atomic_min(nearest + tile, as_int(start));
   const uint low = (uint)bins, high = (uint)(bins >> 32);
-  for (int y = y0; y <= y1; ++y) {
-    for (int tile = y * tiles_across(camera.width) + x0; tile <= y * tiles_across(camera.width) + x1; ++tile) {
-      if (nearest[tile] > as_int(start)) atomic_min(nearest + tile, as_int(start));
-      if (low & ~occupied[2 * tile]) atomic_or(occupied + 2 * tile, low);
-      if (high & ~occupied[2 * tile + 1]) atomic_or(occupied + 2 * tile + 1, high);
-    }
-  }
+  if (low & ~occupied[2 * tile]) atomic_or(occupied + 2 * tile, low);
+  if (high & ~occupied[2 * tile + 1]) atomic_or(occupied + 2 * tile + 1, high);
 }
 
 __kernel void splat_block_ranges(__global const int *groups, int group_count, int slots,
@@ -41,7 +49,7 @@ __kernel void splat_block_ranges(__global const int *groups, int group_count, in
   const int slot = slot_in_view(groups, group_count, slots);
   if (slot < 0) return;
   const int4 index = block_indices[slot];
-  const int octants = block_states[slot] & BLOCK_NEAR_SURFACE;
+  const int octants = (block_states[slot] & BLOCK_NEAR_SURFACE) >> BLOCK_NEAR_SURFACE_SHIFT;
   if (index.w == 0 || octants == 0) return;
   const float quarter_m = 0.25f * grid.voxel_size_m * BLOCK_SIZE;
   const float3 middle = transform_point(T_D_W, (convert_float3(index.xyz) + 0.5f) * (4.0f * quarter_m));
@@ -51,11 +59,34 @@ __kernel void splat_block_ranges(__global const int *groups, int group_count, in
   const float3 reach = fabs(axis_x) + fabs(axis_y) + fabs(axis_z);
   if (!sphere_in_view(middle, 2.0f * 1.7320508f * quarter_m, camera)) return;
   if (middle.z + 2.0f * reach.z < range.min_m || middle.z - 2.0f * reach.z > range.max_m) return;
-  for (int octant = 0; octant < 8; ++octant) {
-    if (!(octants >> (octant + BLOCK_NEAR_SURFACE_SHIFT) & 1)) continue;
-    const float3 centre = middle + (octant & 1 ? axis_x : -axis_x) + (octant & 2 ? axis_y : -axis_y) +
-                          (octant & 4 ? axis_z : -axis_z);
-    const Box box = {centre - reach, centre + reach};
-    splat_box(box, nearest, occupied, camera, range);
+
+  const float8 x = middle.x + SIDE_X * axis_x.x + SIDE_Y * axis_y.x + SIDE_Z * axis_z.x;
+  const float8 y = middle.y + SIDE_X * axis_x.y + SIDE_Y * axis_y.y + SIDE_Z * axis_z.y;
+  const float8 z = middle.z + SIDE_X * axis_x.z + SIDE_Y * axis_y.z + SIDE_Z * axis_z.z;
+  const Extents depth = depth_extents(z, reach.z);
+  const Extents u = pixel_extents(x, reach.x, depth, camera.fx, camera.cx);
+  const Extents v = pixel_extents(y, reach.y, depth, camera.fy, camera.cy);
+  const float8 start = max(depth.lowest, (float8)(range.min_m)), end = min(depth.highest, (float8)(range.max_m));
+  const int8 seen = (start <= end) & in_image(u, camera.width) & in_image(v, camera.height);
+
+  float starts[8], ends[8];
+  int is_seen[8], left[8], right[8], top[8], bottom[8];
+  vstore8(start, 0, starts);
+  vstore8(end, 0, ends);
+  vstore8(seen, 0, is_seen);
+  vstore8(tile_at(u.lowest, camera.width), 0, left);
+  vstore8(tile_at(u.highest + 1.0f, camera.width), 0, right);
+  vstore8(tile_at(v.lowest, camera.height), 0, top);
+  vstore8(tile_at(v.highest + 1.0f, camera.height), 0, bottom);
+  for (int i = 0; i < 8; ++i) {
+    if (!(octants >> i & 1) || !is_seen[i]) continue;
+    const int first_bin = depth_bin(starts[i], range);
+    const ulong bins = ((2ul << (depth_bin(ends[i], range) - first_bin)) - 1) << first_bin;
+    for (int row = top[i]; row <= bottom[i]; ++row) {
+      const int first_tile = row * tiles_across(camera.width);
+      for (int column = left[i]; column <= right[i]; ++column) {
+        widen(first_tile + column, starts[i], bins, nearest, occupied);
+      }
+    }
   }
 }

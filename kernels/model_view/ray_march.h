@@ -39,7 +39,7 @@ inline Rays make_rays(vint u, vint v, const CameraArgs camera, const TransformAr
 // Where the rays of a patch have come to.
 typedef struct {
   Rays rays;
-  TileRange tile;
+  ulong bins;  // where there may be a surface
   vfloat t, previous_t;
   vint previous;  // distance at previous_t
   vint active;
@@ -53,12 +53,12 @@ typedef struct {
   vint distance;
 } Voxels;
 
-// `rays` where `active`, from where their tile has a surface.
-inline March begin_march(const Rays rays, vint active, const TileRange tile, const RayRangeArgs range) {
+// `rays` where `active`, from where their tiles have a surface.
+inline March begin_march(const Rays rays, vint active, vfloat nearest_m, ulong bins, const RayRangeArgs range) {
   March march;
   march.rays = rays;
-  march.tile = tile;
-  march.t = march.previous_t = tile.nearest_m;
+  march.bins = bins;
+  march.t = march.previous_t = nearest_m;
   march.previous = TSDF_CHI;
   march.active = active & (march.t < range.max_m);
   march.hit_t = 0.0f;
@@ -99,15 +99,12 @@ inline vfloat step_out_of_block(const March march, const Voxels at, const Point 
   return max(exit_t, march.t) + 0.05f * march.rays.t_per_voxel;
 }
 
-// As far as the distance says, and where it falls more slowly, a little beyond where it would be zero.
-inline vfloat step_in_band(const March march, vint distance, float voxels_per_step) {
-  const vfloat safe_t = fabs(TO_VFLOAT(distance)) * voxels_per_step * march.rays.t_per_voxel;
+// As far as the distance says, and where it falls more slowly, a little beyond zero_t, where it would be zero.
+inline vfloat step_in_band(const March march, vint distance, vfloat zero_t, float voxels_per_step) {
+  const vfloat safe_t = march.t + fabs(TO_VFLOAT(distance)) * voxels_per_step * march.rays.t_per_voxel;
   const vint falling = (march.previous != TSDF_CHI) & (distance > 0) & (march.previous > distance);
-  const vfloat zero_t = TO_VFLOAT(distance) * (march.t - march.previous_t) /
-                        TO_VFLOAT(max(march.previous - distance, (vint)(1)));
-  const vfloat ahead_t =
-      select(safe_t, clamp(zero_t, safe_t, safe_t + 2.0f * march.rays.t_per_voxel), falling);
-  return march.t + max(ahead_t + 0.25f * march.rays.t_per_voxel, march.rays.t_per_voxel);
+  const vfloat ahead_t = select(safe_t, clamp(zero_t, safe_t, safe_t + 2.0f * march.rays.t_per_voxel), falling);
+  return max(ahead_t + 0.25f * march.rays.t_per_voxel, march.t + march.rays.t_per_voxel);
 }
 
 inline void advance(March *march, const Voxels at, const Point origin, const GridArgs grid,
@@ -123,18 +120,19 @@ inline void advance(March *march, const Voxels at, const Point origin, const Gri
   const vint behind = march->active & known & (distance <= 0);
   const vint crossed = behind & (march->previous > 0);
   const vint overshot = behind & (march->previous == TSDF_CHI) & (distance > -TSDF_MAX / 2);
-  const vfloat fraction = TO_VFLOAT(march->previous) / TO_VFLOAT(max(march->previous - distance, (vint)(1)));
-  march->hit_t = select(march->hit_t, march->previous_t + (march->t - march->previous_t) * fraction, crossed);
+  const vfloat zero_t = march->t + TO_VFLOAT(distance) * (march->t - march->previous_t) /
+                                       TO_VFLOAT(max(march->previous - distance, (vint)(1)));
+  march->hit_t = select(march->hit_t, zero_t, crossed);
   march->hit_t = select(march->hit_t, march->t + TO_VFLOAT(distance) * voxels_per_step * march->rays.t_per_voxel,
                         overshot);
   march->active = march->active & NOT(crossed | overshot);
 
-  vfloat next_t = select(march->t + chi_step_t, step_in_band(*march, distance, voxels_per_step), known);
+  vfloat next_t = select(march->t + chi_step_t, step_in_band(*march, distance, zero_t, voxels_per_step), known);
   if (ANY(march->active & NOT(at.allocated))) {
     next_t = select(step_out_of_block(*march, at, origin), next_t, at.allocated);
     if (!ANY(march->active & at.allocated)) {
       const float least_t = LEAST(select((vfloat)(MAXFLOAT), next_t, march->active));
-      next_t = max(next_t, next_occupied(march->tile.bins, least_t, range));
+      next_t = max(next_t, next_occupied(march->bins, least_t, range));
     }
   }
   march->previous_t = march->t;
@@ -152,9 +150,10 @@ inline void follow(March *marches, int count, const Point origin, __global const
     Voxels at[MAX_MARCHES];
     active = 0;
 #pragma unroll
-    for (int i = 0; i < count; ++i) at[i] = look(marches[i], middle, offsets, voxels, grid);
+    for (int i = 0; i < count; ++i) if (ANY(marches[i].active)) at[i] = look(marches[i], middle, offsets, voxels, grid);
 #pragma unroll
     for (int i = 0; i < count; ++i) {
+      if (!ANY(marches[i].active)) continue;
       advance(&marches[i], at[i], middle, grid, range);
       active |= marches[i].active;
     }

@@ -2,12 +2,8 @@
 // and a bit for every bin of depth with some.
 //   nearest   metres; float bits as ints, whose order is the same for positive floats
 //   occupied  two words a tile, the lower bins' first
+#include "shared/simd.h"
 #include "shared/types.h"
-
-typedef struct {
-  float nearest_m;
-  ulong bins;
-} TileRange;
 
 inline int depth_bin(float depth_m, const RayRangeArgs range) {
   return clamp((int)((depth_m - range.min_m) * range.bins_per_m), 0, DEPTH_BINS - 1);
@@ -15,12 +11,14 @@ inline int depth_bin(float depth_m, const RayRangeArgs range) {
 
 inline int tiles_across(int pixels) { return (pixels + RANGE_TILE - 1) / RANGE_TILE; }
 
-// Of the tile that the pixel lies in.
-inline TileRange tile_range(int x, int y, __global const float *nearest, __global const uint *occupied,
-                            const CameraArgs camera) {
-  const int tile = y / RANGE_TILE * tiles_across(camera.width) + min(x, camera.width - 1) / RANGE_TILE;
-  const TileRange range = {nearest[tile], upsample(occupied[2 * tile + 1], occupied[2 * tile])};
-  return range;
+// The tile that each pixel lies in; pixels beside the image count as of its border.
+inline vint tiles_of(vint x, vint y, const CameraArgs camera) {
+  return min(y, (vint)(camera.height - 1)) / RANGE_TILE * tiles_across(camera.width) +
+         min(x, (vint)(camera.width - 1)) / RANGE_TILE;
+}
+
+inline ulong bins_of(int tile, __global const uint *occupied) {
+  return upsample(occupied[2 * tile + 1], occupied[2 * tile]);
 }
 
 // Depth from which on there may be a surface again, at or after depth_m; MAXFLOAT if there is none.

@@ -40,15 +40,8 @@ inline Surface find_beside(const Rays rays, const Rays first_rays, const Surface
   const vfloat t = first.t * along(first_rays, first) / along(rays, first);
   const vint expected = in_view & first.known & (fabs(t - first.t) < 3.0f * rays.t_per_voxel);
   Surface surface = find_surface(rays, t, expected, origin, offsets, voxels, grid);
-  surface.known &= fabs(surface.t - t) < 0.5f * rays.t_per_voxel;
+  surface.known &= fabs(surface.t - t) < rays.t_per_voxel;
   return surface;
-}
-
-inline Surface choose(const Surface a, const Surface b, vint use_b) {
-  const Surface chosen = {select(a.t, b.t, use_b), select(a.gradient_x, b.gradient_x, use_b),
-                          select(a.gradient_y, b.gradient_y, use_b), select(a.gradient_z, b.gradient_z, use_b),
-                          a.known | b.known};
-  return chosen;
 }
 
 // Stores rows of words that stand side by side in turn, of pixels with even and with odd columns.
@@ -91,6 +84,56 @@ inline void store_surfaces(const Surface even, const Surface odd, int x, int y, 
   store_rows(normal_bits(even, T_W_D), normal_bits(odd, T_W_D), x, y, normals, camera);
 }
 
+// Pixels whose rays are yet to be followed, as column and row, 16 bits each.
+typedef struct {
+  uint pixels[PATCHES * (PATCH_RAYS - 1) * SIMD_WIDTH + SIMD_WIDTH];
+  int count;
+} PixelList;
+
+inline void append(PixelList *list, vint column, vint row, vint wanted) {
+  if (!ANY(wanted)) return;
+  uint pixels[SIMD_WIDTH];
+  int is_wanted[SIMD_WIDTH];
+  VSTORE(AS_VUINT(column | row << 16), pixels);
+  VSTORE(wanted, is_wanted);
+  for (int i = 0; i < SIMD_WIDTH; ++i) {
+    list->pixels[list->count] = pixels[i];
+    list->count += is_wanted[i] != 0;
+  }
+}
+
+// Stores a word a pixel, where `wanted`.
+inline void scatter(vuint words, vint pixels, vint wanted, __global uint *image) {
+  uint word[SIMD_WIDTH];
+  int pixel[SIMD_WIDTH], is_wanted[SIMD_WIDTH];
+  VSTORE(words, word);
+  VSTORE(pixels, pixel);
+  VSTORE(wanted, is_wanted);
+  for (int i = 0; i < SIMD_WIDTH; ++i) {
+    if (is_wanted[i]) image[pixel[i]] = word[i];
+  }
+}
+
+// Follows the rays of listed pixels, which lie in tiles with the given bins.
+inline void cast_listed(const PixelList *list, ulong bins, const Point origin, __global const int *offsets,
+                        __global const char *voxels, __global const float *nearest, __global float *depth,
+                        __global uint *normals, const CameraArgs camera, const TransformArgs T_W_D,
+                        const GridArgs grid, const RayRangeArgs range) {
+  for (int i = 0; i < list->count; i += SIMD_WIDTH) {
+    const vint listed = i + LANE_INDICES < list->count;
+    const vuint pixels = select((vuint)(0), VLOAD(list->pixels + i), AS_VUINT(listed));
+    const vint column = AS_VINT(pixels & 0xffffu), row = AS_VINT(pixels >> 16);
+    const vfloat start_m = GATHER(vfloat, nearest, tiles_of(column, row, camera));
+    March march = begin_march(make_rays(column, row, camera, T_W_D, grid), listed, start_m, bins, range);
+    follow(&march, 1, origin, offsets, voxels, grid, range);
+    const Surface surface =
+        find_surface(march.rays, march.hit_t, march.hit_t > 0.0f, origin, offsets, voxels, grid);
+    const vint indices = pixel_indices(column, row, camera);
+    scatter(depth_bits(surface), indices, surface.known, (__global uint *)depth);
+    scatter(normal_bits(surface, T_W_D), indices, surface.known, normals);
+  }
+}
+
 // depth: metres, 0 = none; normals: towards free space, in frame D
 __kernel void raycast(__global const int *offsets, __global const char *voxels, __global const float *nearest,
                       __global const uint *occupied, __global float *depth, __global uint *normals,
@@ -103,43 +146,36 @@ __kernel void raycast(__global const int *offsets, __global const char *voxels, 
   const vint v = y + RAY_STRIDE * (LANE_INDICES / PATCH_COLUMNS);
 
   March firsts[PATCHES];
+  ulong all_bins = 0;
   for (int i = 0; i < PATCHES; ++i) {
     const vint column = u + i * (RAY_STRIDE * PATCH_COLUMNS);
     const vint in_view = (column < camera.width) & (v < camera.height);
-    const TileRange tile = tile_range(x + i * (RAY_STRIDE * PATCH_COLUMNS), y, nearest, occupied, camera);
-    firsts[i] = begin_march(make_rays(column, v, camera, T_W_D, grid), in_view, tile, range);
+    const int tile = FIRST_LANE(tiles_of(column, v, camera));
+    const ulong bins = bins_of(tile, occupied);
+    all_bins |= bins;
+    firsts[i] =
+        begin_march(make_rays(column, v, camera, T_W_D, grid), in_view, (vfloat)(nearest[tile]), bins, range);
   }
   follow(firsts, PATCHES, origin, offsets, voxels, grid, range);
 
+  PixelList missing;
+  missing.count = 0;
   for (int i = 0; i < PATCHES; ++i) {
     const int patch_x = x + i * (RAY_STRIDE * PATCH_COLUMNS);
     const Rays first_rays = firsts[i].rays;
-    const Surface first =
-        find_surface(first_rays, firsts[i].hit_t, firsts[i].hit_t > 0.0f, origin, offsets, voxels, grid);
     Surface surfaces[PATCH_RAYS];
-    March marches[PATCH_RAYS];
-    vint any_missing = 0;
-    surfaces[0] = first;
+    surfaces[0] =
+        find_surface(first_rays, firsts[i].hit_t, firsts[i].hit_t > 0.0f, origin, offsets, voxels, grid);
     for (int k = 1; k < PATCH_RAYS; ++k) {
       const vint column = u + (i * (RAY_STRIDE * PATCH_COLUMNS) + k % RAY_STRIDE), row = v + k / RAY_STRIDE;
       const vint in_view = (column < camera.width) & (row < camera.height);
       const Rays rays = make_rays(column, row, camera, T_W_D, grid);
-      surfaces[k] = find_beside(rays, first_rays, first, in_view, origin, offsets, voxels, grid);
-      const vint missing = in_view & first.known & NOT(surfaces[k].known);
-      marches[k] = begin_march(rays, missing, firsts[i].tile, range);
-      any_missing |= missing;
-    }
-    if (ANY(any_missing)) {
-      follow(marches + 1, PATCH_RAYS - 1, origin, offsets, voxels, grid, range);
-      for (int k = 1; k < PATCH_RAYS; ++k) {
-        const vint hit = marches[k].hit_t > 0.0f;
-        const Surface found =
-            find_surface(marches[k].rays, marches[k].hit_t, hit, origin, offsets, voxels, grid);
-        surfaces[k] = choose(surfaces[k], found, hit);
-      }
+      surfaces[k] = find_beside(rays, first_rays, surfaces[0], in_view, origin, offsets, voxels, grid);
+  append(&missing, column, row, in_view & surfaces[0].known & NOT(surfaces[k].known));
     }
     for (int k = 0; k < PATCH_RAYS; k += RAY_STRIDE) {
       store_surfaces(surfaces[k], surfaces[k + 1], patch_x, y + k / RAY_STRIDE, depth, normals, camera, T_W_D);
     }
   }
+  cast_listed(&missing, all_bins, origin, offsets, voxels, nearest, depth, normals, camera, T_W_D, grid, range);
 }

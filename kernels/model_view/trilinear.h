@@ -22,6 +22,28 @@ inline AxisNeighbours axis_neighbours(vint voxel, int axis, const GridArgs grid)
   return result;
 }
 
+// Slots of the blocks of a cell's corners, numbered by the axes in which they are the second voxel (bit 0: x, 1: y, 2: z).
+// Looked up only where the cell crosses into another block along all of these.
+inline void find_slots(const AxisNeighbours axes[3], vint inside, __global const int *offsets, int blocks_per_axis,
+                       vint slots[8]) {
+#pragma unroll
+  for (int corner = 0; corner < 8; ++corner) {
+    vint slot = -1, own = inside;
+#pragma unroll
+    for (int i = 0; i < 3; ++i) {
+      if (!(corner >> i & 1)) continue;
+      slot = select(slots[corner ^ 1 << i], slot, axes[i].crosses);
+      own &= axes[i].crosses;
+    }
+    if (ANY(own)) {
+      const vint address = axes[0].block[corner & 1] +
+                           blocks_per_axis * (axes[1].block[corner >> 1 & 1] + blocks_per_axis * axes[2].block[corner >> 2]);
+      slot = select(slot, slot_at(address, own, offsets), own);
+    }
+    slots[corner] = slot;
+  }
+}
+
 // Trilinear interpolation of the distance at p, in steps of the distance byte, and its gradient in steps a voxel.
 // known: 0 where one of the eight voxels is chi.
 typedef struct {
@@ -32,37 +54,28 @@ typedef struct {
 inline Sample interpolate(vfloat px, vfloat py, vfloat pz, vint active, __global const int *offsets,
                           __global const char *voxels, const GridArgs grid) {
   const vint vx = TO_VINT(px), vy = TO_VINT(py), vz = TO_VINT(pz);
-  const AxisNeighbours nx = axis_neighbours(vx, 0, grid);
-  const AxisNeighbours ny = axis_neighbours(vy, 1, grid);
-  const AxisNeighbours nz = axis_neighbours(vz, 2, grid);
-  const int n = grid.blocks_per_axis;
-  const vint inside = active & nx.inside & ny.inside & nz.inside;
-  const bool any_x = ANY(inside & nx.crosses), any_y = ANY(inside & ny.crosses), any_z = ANY(inside & nz.crosses);
+  const AxisNeighbours axes[3] = {axis_neighbours(vx, 0, grid), axis_neighbours(vy, 1, grid),
+                                  axis_neighbours(vz, 2, grid)};
+  const vint inside = active & axes[0].inside & axes[1].inside & axes[2].inside;
+  const bool any_crosses_x = ANY(inside & axes[0].crosses);
+  vint slots[8];
+  find_slots(axes, inside, offsets, grid.blocks_per_axis, slots);
   Sample sample;
   sample.known = inside;
   vfloat corner[8];
-  vint slots[4], next_slots[4];  // of the blocks of each row's first voxel, and of its second
-  for (int i = 0; i < 4; ++i) {
-    const int cy = i & 1, cz = i >> 1;
-    if (i == 0 || (cy && any_y) || (cz && any_z)) {
-      const vint row = n * (ny.block[cy] + n * nz.block[cz]);
-      slots[i] = slot_at(row + nx.block[0], inside, offsets);
-      next_slots[i] = any_x ? slot_at(row + nx.block[1], inside, offsets) : slots[i];
-    } else {
-      slots[i] = slots[0];
-      next_slots[i] = next_slots[0];
-    }
-    const vint row_in_block = (ny.in_block[cy] << BLOCK_SIZE_LOG2) + (nz.in_block[cz] << (2 * BLOCK_SIZE_LOG2));
-    const vint four = GATHER_FOUR_BYTES(voxels, distances_of(slots[i]) + row_in_block + nx.in_block[0]);
+#pragma unroll
+  for (int i = 0; i < 8; i += 2) {
+    const vint row_in_block = (axes[1].in_block[i >> 1 & 1] << BLOCK_SIZE_LOG2) +
+                              (axes[2].in_block[i >> 2] << (2 * BLOCK_SIZE_LOG2));
+    const vint four = GATHER_FOUR_BYTES(voxels, distances_of(slots[i]) + row_in_block + axes[0].in_block[0]);
     const vint first = four << 24 >> 24;
     vint second = four << 16 >> 24;
-    if (any_x) {
-      second = select(second, GATHER_BYTES(voxels, distances_of(next_slots[i]) + row_in_block), nx.crosses);
+    if (any_crosses_x) {
+      second = select(second, GATHER_BYTES(voxels, distances_of(slots[i + 1]) + row_in_block), axes[0].crosses);
     }
-    sample.known &=
-        (slots[i] >= 0) & (next_slots[i] >= 0) & (first != TSDF_CHI) & (second != TSDF_CHI);
-    corner[2 * i] = TO_VFLOAT(first);
-    corner[2 * i + 1] = TO_VFLOAT(second);
+    sample.known &= (slots[i] >= 0) & (slots[i + 1] >= 0) & (first != TSDF_CHI) & (second != TSDF_CHI);
+    corner[i] = TO_VFLOAT(first);
+    corner[i + 1] = TO_VFLOAT(second);
   }
   const vfloat x = px - TO_VFLOAT(vx), y = py - TO_VFLOAT(vy), z = pz - TO_VFLOAT(vz);
   const vfloat x00 = corner[1] - corner[0], x10 = corner[3] - corner[2];
