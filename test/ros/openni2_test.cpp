@@ -93,7 +93,8 @@ class OpenNi2Map : public OpenNi2 {
     ASSERT_TRUE(request.response.success) << request.response.message;
     const TriangleMesh mesh = readPly(request.request.path);
     const Pose T_W_map = *roomFrames().front().T_W_D * first.inverse();
-    EXPECT_LT(compareMesh(mesh, T_W_map, SimulatedRecording(roomOptions()).scene().surface).surface_m.mean, 0.002);
+    EXPECT_LT(compareMesh(mesh, T_W_map, SimulatedRecording(roomOptions()).scene().surface).surface_m.mean,
+              0.002);
     static const Eigen::AlignedBox3f expected = boundsOfBag();
     const Eigen::AlignedBox3f bounds = boundsOf(mesh);
     EXPECT_LT((bounds.min() - expected.min()).cwiseAbs().maxCoeff(), 0.03f);
