@@ -18,7 +18,8 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   const StageTimers::Scope timer(timers_, "frame");
   const PreparedFrame prepared = prepared_.valid() ? prepared_.get() : prepare(frame);
   timers_.append(prepared.timers);
-  if (next != nullptr) textured_ = std::async(std::launch::async, [this, after = *next] { return findMotion(after); });
+  if (next != nullptr)
+    textured_ = std::async(std::launch::async, [this, after = *next] { return findMotion(after); });
   FrameResult result;
   result.tracking = tracker_.track(frame, prepared.prior, prepared.features, view_, timers_);
   const std::shared_ptr<const DepthFrame> depth = tracker_.depth();
@@ -28,7 +29,8 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   } else {
     tracker_.reject();
   }
-  if (next != nullptr) prepared_ = std::async(std::launch::async, [this, after = *next] { return prepare(after); });
+  if (next != nullptr)
+    prepared_ = std::async(std::launch::async, [this, after = *next] { return prepare(after); });
   if (tracked) {
     fuse(frame, *depth, result);
     if (result.fusion.fused()) view_ = &mapper_.render(result.tracking.T_W_D, timers_);

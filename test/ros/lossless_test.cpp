@@ -35,7 +35,8 @@ TEST(Lossless, GivesTheOfflineTrajectoryAndMap) {
   std::unique_ptr<ReconstructionPipeline> offline;
   std::vector<geometry_msgs::Pose> expected;
   while (const auto frame = recording->next()) {
-    if (!offline) offline = std::make_unique<ReconstructionPipeline>(compute, PipelineParameters(), frame->intrinsics);
+    if (!offline)
+      offline = std::make_unique<ReconstructionPipeline>(compute, PipelineParameters(), frame->intrinsics);
     const FrameResult result = offline->processFrame(*frame);
     ASSERT_NE(result.tracking.status, TrackingStatus::kLost);
     expected.push_back(toMessage(result.tracking.T_W_D));

@@ -1,10 +1,6 @@
-// A camera and an .oni file through OpenNI2 itself, from the driver to the map; and what goes wrong with
-// cameras.
+// A camera and an .oni file through OpenNI2 itself, from the driver to the map.
 #include <depth_fusion/ExportMesh.h>
-#include <diagnostic_msgs/DiagnosticArray.h>
-#include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <sensor_msgs/SetCameraInfo.h>
 
 #include <cstring>
 
@@ -12,33 +8,16 @@
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
-#include "support/nodelet_graph.h"
-#include "support/test_device.h"
+#include "support/openni2_graph.h"
 
 namespace depth_fusion {
 namespace {
 
-using diagnostic_msgs::DiagnosticArray;
-using diagnostic_msgs::DiagnosticStatus;
 using geometry_msgs::PoseWithCovarianceStamped;
-using sensor_msgs::CameraInfo;
 using sensor_msgs::Image;
 
-constexpr int kFrames = 60;
 constexpr double kMaxOffset_m = 0.01;
 constexpr double kMaxTurn_rad = 0.0087;
-
-// Exact depth: the error of the map does not depend on how many frames a busy machine drops.
-SimulationOptions scene() {
-  SimulationOptions options = smallRoom(kFrames);
-  options.noise = false;
-  return options;
-}
-
-const std::vector<RgbdFrame>& roomFrames() {
-  static const std::vector<RgbdFrame> frames = simulatedFrames(scene());
-  return frames;
-}
 
 Pose poseOf(const PoseWithCovarianceStamped& message) {
   geometry_msgs::Transform transform;
@@ -66,25 +45,11 @@ Eigen::AlignedBox3f boundsOfBag() {
   return boundsOf(mesh);
 }
 
-class OpenNi2 : public testing::Test {
+class OpenNi2Map : public OpenNi2 {
  protected:
-  OpenNi2()
-      : graph_(std::string("openni2_") + testing::UnitTest::GetInstance()->current_test_info()->name()),
-        device_(roomFrames()),
-        diagnostics_(graph_.handle(), "/diagnostics"),
-        poses_(graph_.handle(), "icp_tracking/pose"),
-        tracker_(graph_.handle(), "icp_tracking/status") {
-    device_.control.fps = 10.0;  // the test machine has more to do
-    device_.apply();
-    set("device_id", std::string("#1"));
-    set("depth_mode", device_.mode());
-    set("color_mode", device_.mode());
+  OpenNi2Map()
+      : poses_(graph_.handle(), "icp_tracking/pose"), tracker_(graph_.handle(), "icp_tracking/status") {
     graph_.handle().setParam("icp_tracking/level_start", false);
-  }
-
-  template <class Value>
-  void set(const std::string& name, const Value& value) {
-    graph_.handle().setParam("acquisition/" + name, value);
   }
 
   // The nodelets that track and fuse know each other before the camera does.
@@ -92,19 +57,6 @@ class OpenNi2 : public testing::Test {
     graph_.loadTracking();
     ASSERT_TRUE(graph_.load("surface_mesh"));
     ASSERT_TRUE(graph_.load("acquisition"));
-  }
-
-  // That acquisition says so from now on.
-  bool says(int level, const std::string& words) {
-    const size_t before = diagnostics_.count();
-    size_t seen = 0;
-    return diagnostics_.await([&](const DiagnosticArray& array) {
-      if (++seen <= before) return false;
-      return std::any_of(array.status.begin(), array.status.end(), [&](const DiagnosticStatus& status) {
-        return status.name.find(graph_.resolve("acquisition").substr(1)) != std::string::npos &&
-               status.level == level && status.message.find(words) != std::string::npos;
-      });
-    }) != nullptr;
   }
 
   // The first pose of the recording's frame; null if none comes.
@@ -141,7 +93,8 @@ class OpenNi2 : public testing::Test {
     ASSERT_TRUE(request.response.success) << request.response.message;
     const TriangleMesh mesh = readPly(request.request.path);
     const Pose T_W_map = *roomFrames().front().T_W_D * first.inverse();
-    EXPECT_LT(compareMesh(mesh, T_W_map, SimulatedRecording(scene()).scene().surface).surface_m.mean, 0.002);
+    EXPECT_LT(compareMesh(mesh, T_W_map, SimulatedRecording(roomOptions()).scene().surface).surface_m.mean,
+              0.002);
     static const Eigen::AlignedBox3f expected = boundsOfBag();
     const Eigen::AlignedBox3f bounds = boundsOf(mesh);
     EXPECT_LT((bounds.min() - expected.min()).cwiseAbs().maxCoeff(), 0.03f);
@@ -155,14 +108,11 @@ class OpenNi2 : public testing::Test {
     return true;
   }
 
-  NodeletGraph graph_;
-  TestDevice device_;
-  Listener<DiagnosticArray> diagnostics_;
   Listener<PoseWithCovarianceStamped> poses_;
   Listener<TrackerStatus> tracker_;
 };
 
-TEST_F(OpenNi2, ACameraBecomesTheMapOfABag) {
+TEST_F(OpenNi2Map, ACameraBecomesTheMapOfABag) {
   Listener<Image> depth(graph_.handle(), "depth/image");
   loadAll();
   const auto first = awaitPoseOf(depth, 0);
@@ -175,7 +125,7 @@ TEST_F(OpenNi2, ACameraBecomesTheMapOfABag) {
   expectMesh(poseOf(*first));
 }
 
-TEST_F(OpenNi2, AnOniFileBecomesTheMapOfABag) {
+TEST_F(OpenNi2Map, AnOniFileBecomesTheMapOfABag) {
   const TemporaryFolder folder;
   device_.control.fps = 30.0;
   device_.apply();
@@ -190,7 +140,7 @@ TEST_F(OpenNi2, AnOniFileBecomesTheMapOfABag) {
   expectMesh(poseOf(*poses_.all().front()));
 }
 
-TEST_F(OpenNi2, UnpluggedItWaitsAndGoesOnWithTheSameMap) {
+TEST_F(OpenNi2Map, UnpluggedItWaitsAndGoesOnWithTheSameMap) {
   Listener<Image> depth(graph_.handle(), "depth/image");
   Listener<MapStatus> map(graph_.handle(), "tsdf_fusion/status");
   loadAll();
@@ -212,7 +162,7 @@ TEST_F(OpenNi2, UnpluggedItWaitsAndGoesOnWithTheSameMap) {
   EXPECT_EQ(map.all().front()->generation, map.all().back()->generation);
 }
 
-TEST_F(OpenNi2, LateColourIsSaidAndDepthGoesOn) {
+TEST_F(OpenNi2Map, LateColourIsSaidAndDepthGoesOn) {
   Listener<Image> depth(graph_.handle(), "depth/image");
   loadAll();
   const auto first = awaitPoseOf(depth, 0);
@@ -229,7 +179,7 @@ TEST_F(OpenNi2, LateColourIsSaidAndDepthGoesOn) {
   EXPECT_TRUE(says(DiagnosticStatus::OK, "running"));
 }
 
-TEST_F(OpenNi2, DroppedFramesAreCountedAndBridged) {
+TEST_F(OpenNi2Map, DroppedFramesAreCountedAndBridged) {
   Listener<Image> depth(graph_.handle(), "depth/image");
   loadAll();
   const auto first = awaitPoseOf(depth, 0);
@@ -249,126 +199,6 @@ TEST_F(OpenNi2, DroppedFramesAreCountedAndBridged) {
     return false;
   }),
             nullptr);
-}
-
-TEST_F(OpenNi2, WithoutRegistrationDepthHasItsOwnFrameAndAWarning) {
-  device_.control.registers = false;
-  device_.apply();
-  Listener<Image> depth(graph_.handle(), "depth/image"), color(graph_.handle(), "rgb/image");
-  ASSERT_TRUE(graph_.load("acquisition"));
-  ASSERT_TRUE(says(DiagnosticStatus::WARN, "cannot register depth to colour"));
-  ASSERT_TRUE(depth.awaitCount(1) && color.awaitCount(1));
-  EXPECT_EQ(depth.all()[0]->header.frame_id, "camera_depth_optical_frame");
-  EXPECT_EQ(color.all()[0]->header.frame_id, "camera_rgb_optical_frame");
-}
-
-TEST_F(OpenNi2, AModeThatItLacksIsSaidUntilItHasIt) {
-  device_.control.refuses_modes = true;
-  device_.apply();
-  Listener<Image> depth(graph_.handle(), "depth/image");
-  ASSERT_TRUE(graph_.load("acquisition"));
-  ASSERT_TRUE(says(DiagnosticStatus::ERROR, "refuses depth_mode 320x240@30"));
-  EXPECT_EQ(depth.count(), 0u);
-  device_.control.refuses_modes = false;
-  device_.apply();
-  EXPECT_TRUE(depth.awaitCount(1));
-}
-
-TEST_F(OpenNi2, WithoutACameraItSaysWhatItLookedForAndWaits) {
-  device_.control.plugged = false;
-  device_.apply();
-  set("device_id", std::string(kFirstSerial));
-  Listener<Image> depth(graph_.handle(), "depth/image");
-  ASSERT_TRUE(graph_.load("acquisition"));
-  ASSERT_TRUE(says(DiagnosticStatus::ERROR, std::string("no camera ") + kFirstSerial));
-  device_.control.plugged = true;
-  device_.apply();
-  EXPECT_TRUE(depth.awaitCount(1));
-}
-
-TEST_F(OpenNi2, PublishesTheMemoryThatTheDriverWroteTo) {
-  device_.control.writes_addresses = true;
-  device_.apply();
-  set("ir_mode", device_.mode());
-  Listener<Image> depth(graph_.handle(), "depth/image"), color(graph_.handle(), "rgb/image"),
-      ir(graph_.handle(), "ir/image");
-  ASSERT_TRUE(graph_.load("acquisition"));
-  for (Listener<Image>* images : {&depth, &color, &ir}) {
-    ASSERT_TRUE(images->awaitCount(5));
-    for (const auto& image : images->all()) {
-      const void* address = nullptr;
-      std::memcpy(&address, image->data.data(), sizeof(address));
-      EXPECT_EQ(address, image->data.data());
-    }
-  }
-}
-
-TEST_F(OpenNi2, StampsGoByTheCamerasClock) {
-  device_.control.fps = 20.0;
-  device_.apply();
-  set("depth_time_offset", 0.5);
-  set("color_time_offset", 0.0);
-  Listener<Image> depth(graph_.handle(), "depth/image"), color(graph_.handle(), "rgb/image");
-  ASSERT_TRUE(graph_.load("acquisition"));
-  ASSERT_TRUE(depth.awaitCount(41) && color.awaitCount(41));
-  EXPECT_LT(depth.all()[40]->header.stamp.toSec(), ros::Time::now().toSec() + 0.5);
-  int regular = 0, paired = 0;
-  for (size_t i = 0; i < 40; ++i) {
-    const double stamp_s = depth.all()[i]->header.stamp.toSec(),
-                 next_s = depth.all()[i + 1]->header.stamp.toSec();
-    const double periods = (next_s - stamp_s) / 0.05;
-    regular += std::abs(periods - std::round(periods)) < 0.02 ? 1 : 0;
-    for (const auto& image : color.all())
-      paired += std::abs(image->header.stamp.toSec() + 0.5 - stamp_s) < 0.001 ? 1 : 0;
-  }
-  EXPECT_GE(regular, 30) << "whatever the delays of this machine";
-  EXPECT_GE(paired, 30);
-}
-
-TEST_F(OpenNi2, CameraInfoIsTheCalibrationOrTheFieldOfView) {
-  const TemporaryFolder folder;
-  CameraInfo calibration = makeCameraInfo({}, roomFrames().front().intrinsics);
-  calibration.D = {0.1, 0.0, 0.0, 0.0, 0.0};
-  set("depth_registration", false);
-  set("rgb_camera_info_url", "file://" + folder.path() + "/rgb.yaml");
-  Listener<CameraInfo> depth(graph_.handle(), "depth/camera_info"), color(graph_.handle(), "rgb/camera_info");
-  ASSERT_TRUE(graph_.load("acquisition"));
-  ASSERT_TRUE(depth.awaitCount(1) && color.awaitCount(1));
-  for (const auto& info : {depth.all()[0], color.all()[0]}) {
-    EXPECT_NEAR(info->K[0], 262.5, 1e-3);
-    EXPECT_NEAR(info->K[5], 119.5, 1e-9);
-    EXPECT_EQ(info->D[0], 0.0);
-  }
-  ros::ServiceClient client =
-      graph_.handle().serviceClient<sensor_msgs::SetCameraInfo>("rgb/set_camera_info");
-  sensor_msgs::SetCameraInfo request;
-  request.request.camera_info = calibration;
-  ASSERT_TRUE(client.call(request));
-  ASSERT_TRUE(request.response.success) << request.response.status_message;
-  EXPECT_NE(color.await([](const CameraInfo& info) { return info.D[0] == 0.1; }), nullptr);
-  EXPECT_TRUE(std::ifstream(folder / "rgb.yaml").good()) << "kept";
-}
-
-TEST_F(OpenNi2, ExposureChangesWhileItRuns) {
-  Listener<Image> color(graph_.handle(), "rgb/image");
-  ASSERT_TRUE(graph_.load("acquisition"));
-  ASSERT_TRUE(color.awaitCount(1));
-  EXPECT_EQ(device_.settings(), "1 1 0 0");
-  dynamic_reconfigure::Reconfigure change;
-  change.request.config.bools.resize(1);
-  change.request.config.bools[0].name = "auto_exposure";
-  change.request.config.ints.resize(1);
-  change.request.config.ints[0].name = "exposure";
-  change.request.config.ints[0].value = 40;
-  ASSERT_TRUE(graph_.handle()
-                  .serviceClient<dynamic_reconfigure::Reconfigure>("acquisition/set_parameters")
-                  .call(change));
-  EXPECT_TRUE(eventually([&] { return device_.settings() == "0 1 40 0"; }));
-}
-
-TEST_F(OpenNi2, ARecordingOrACameraButNotBoth) {
-  set("recording", std::string("room.bag"));
-  EXPECT_FALSE(graph_.load("acquisition"));
 }
 
 }  // namespace

@@ -1,52 +1,14 @@
-#include <gtest/gtest.h>
-#include <tf2_msgs/TFMessage.h>
-
 #include <fstream>
-#include <functional>
 
-#include "ros/messages.h"
 #include "ros/recording.h"
-#include "support/bag_messages.h"
+#include "support/bag_fixture.h"
 #include "support/expect_error.h"
-#include "support/temporary_folder.h"
-#include "support/test_frames.h"
 
 namespace depth_fusion {
 namespace {
 
 namespace fs = std::filesystem;
-
-const char kDepthTopic[] = "/camera/depth/image_raw";
-const char kDepthInfo[] = "/camera/depth/camera_info";
-const char kColorTopic[] = "/camera/rgb/image_raw";
-
-class BagRecordingTest : public ::testing::Test {
- protected:
-  std::string makeBag(const std::function<void(rosbag::Bag&)>& fill) {
-    const std::string path = folder_ / ("bag" + std::to_string(bag_count_++) + ".bag");
-    rosbag::Bag bag(path, rosbag::bagmode::Write);
-    fill(bag);
-    bag.close();
-    return path;
-  }
-
-  TemporaryFolder folder_;
-  int bag_count_ = 0;
-};
-
-void addInfo(rosbag::Bag& bag, const std::string& topic = kDepthInfo) {
-  addToBag(bag, topic, 1.0, infoMessage(kTestWidth, kTestHeight, 10.0));
-}
-
-void addDepth(rosbag::Bag& bag, double stamp_s, double delay_s = 0.0) {
-  addToBag(bag, kDepthTopic, stamp_s, imageMessage(randomDepth(static_cast<int>(stamp_s * 100.0)), "16UC1"),
-           delay_s);
-}
-
-void addGray(rosbag::Bag& bag, double stamp_s, int gray, double delay_s = 0.0) {
-  const cv::Mat color(kTestHeight, kTestWidth, CV_8UC1, cv::Scalar(gray));
-  addToBag(bag, kColorTopic, stamp_s, imageMessage(color, "mono8"), delay_s);
-}
+using BagRecordingTest = BagTest;
 
 // The gray value of a frame's colour, or -1 if it has none.
 int grayOf(const std::optional<RgbdFrame>& frame) {
@@ -199,85 +161,6 @@ TEST_F(BagRecordingTest, leaves_out_colour_it_cannot_read_and_says_so) {
   const auto recording = openBag(path, {});
   EXPECT_TRUE(recording->next()->color.empty());
   EXPECT_NE(recording->description().find("bayer_rggb8"), std::string::npos) << recording->description();
-}
-
-TEST_F(BagRecordingTest, finds_intrinsics_of_the_same_size_nearby) {
-  const std::string path = makeBag([](rosbag::Bag& bag) {
-    addToBag(bag, "/camera/depth_registered/image_raw", 1.0, imageMessage(randomDepth(1), "16UC1"));
-    addToBag(bag, "/camera/rgb/camera_info", 1.0, infoMessage(640, 480, 525.0));
-    addToBag(bag, "/camera/depth/camera_info", 1.0, infoMessage(kTestWidth, kTestHeight, 9.0));
-  });
-  expectSameIntrinsics(openBag(path, {})->next()->intrinsics, {kTestWidth, kTestHeight, 9.0, 9.0, 5.5, 3.25});
-}
-
-TEST_F(BagRecordingTest, uses_the_projection_of_rectified_images) {
-  const auto makeWith = [&](const std::string& depth_topic) {
-    return makeBag([&](rosbag::Bag& bag) {
-      sensor_msgs::CameraInfo info = infoMessage(kTestWidth, kTestHeight, 10.0);
-      info.D = {0.1, 0.0, 0.0, 0.0, 0.0};
-      addToBag(bag, kDepthInfo, 1.0, info);
-      addToBag(bag, depth_topic, 1.0, imageMessage(randomDepth(1), "16UC1"));
-    });
-  };
-  const auto raw = openBag(makeWith("/camera/depth/image_raw"), {})->next();
-  EXPECT_EQ(raw->intrinsics.fx, 10.0);
-  EXPECT_EQ(raw->distortion, (LensDistortion{0.1, 0.0, 0.0, 0.0, 0.0}));
-  const auto rectified = openBag(makeWith("/camera/depth/image_rect"), {})->next();
-  EXPECT_EQ(rectified->intrinsics.fx, 11.0);
-  EXPECT_TRUE(rectified->distortion.empty());
-}
-
-TEST_F(BagRecordingTest, finds_the_colour_camera_by_its_info_and_tf) {
-  const Pose T_C_D(Eigen::Translation3d(-0.025, 0.0, 0.0));
-  const auto makeWith = [&](const std::string& tf_parent) {
-    return makeBag([&](rosbag::Bag& bag) {
-      sensor_msgs::CameraInfo info = infoMessage(kTestWidth, kTestHeight, 10.0);
-      addToBag(bag, kDepthInfo, 1.0, info);
-      info.header.frame_id = "color_frame";
-      info.D = {0.1, 0.0, 0.0, 0.0, 0.0};
-      addToBag(bag, "/camera/rgb/camera_info", 1.0, info);
-      sensor_msgs::Image depth = imageMessage(randomDepth(1), "16UC1");
-      depth.header.frame_id = "depth_frame";
-      addToBag(bag, "/camera/depth/image_raw", 1.0, depth);
-      addToBag(bag, "/camera/rgb/image_raw", 1.0, imageMessage(randomColor(1), "bgr8"));
-      tf2_msgs::TFMessage tf;
-      tf.transforms.push_back(makeTransform(makeHeader(ros::Time(1.0), tf_parent), "depth_frame", T_C_D));
-      bag.write("/tf_static", ros::Time(1.0), tf);
-    });
-  };
-  const auto connected = openRecording(makeWith("color_frame"), {})->next();
-  ASSERT_TRUE(connected->T_C_D.has_value());
-  EXPECT_TRUE(connected->T_C_D->isApprox(T_C_D));
-  EXPECT_EQ(connected->color_distortion, (LensDistortion{0.1, 0.0, 0.0, 0.0, 0.0}));
-  EXPECT_TRUE(connected->distortion.empty());
-  EXPECT_FALSE(connected->color.empty());
-  const auto unconnected = openRecording(makeWith("somewhere"), {});
-  EXPECT_TRUE(unconnected->next()->color.empty());
-  EXPECT_NE(unconnected->description().find("color_frame"), std::string::npos) << unconnected->description();
-}
-
-TEST_F(BagRecordingTest, asks_for_missing_intrinsics_and_takes_given_ones) {
-  const std::string path = makeBag([](rosbag::Bag& bag) {
-    addDepth(bag, 1.0);
-    addInfo(bag, "/other/camera_info");
-  });
-  expectError([&] { openBag(path, {}); },
-              {path, "no camera_info", "/camera/depth/image_raw [sensor_msgs/Image]",
-               "/other/camera_info [sensor_msgs/CameraInfo]", "--intrinsics"});
-  RecordingOptions options;
-  options.intrinsics = CameraIntrinsics{0, 0, 11.0, 12.0, 6.0, 4.0};
-  expectSameIntrinsics(openBag(path, options)->next()->intrinsics,
-                       {kTestWidth, kTestHeight, 11.0, 12.0, 6.0, 4.0});
-  const std::string uncalibrated = makeBag([](rosbag::Bag& bag) {
-    addDepth(bag, 1.0);
-    addToBag(bag, kDepthInfo, 1.0, infoMessage(kTestWidth, kTestHeight, 0.0));
-  });
-  expectError([&] { openBag(uncalibrated, {}); }, {uncalibrated, kDepthInfo, "not valid", "--intrinsics"});
-  const std::string other_size = makeBag([](rosbag::Bag& bag) {
-    addDepth(bag, 1.0);
-    addToBag(bag, kDepthInfo, 1.0, infoMessage(640, 480, 525.0));
-  });
-  expectError([&] { openBag(other_size, {}); }, {other_size, kDepthInfo, "12x8", "640x480"});
 }
 
 TEST_F(BagRecordingTest, lists_the_topics_of_a_bag_without_depth) {

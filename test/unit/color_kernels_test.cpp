@@ -10,7 +10,8 @@ namespace {
 constexpr CameraIntrinsics kDepthCamera{64, 48, 50.0, 50.0, 31.5, 23.5};
 
 TEST(ColorKernels, MovedDepthCoversWhatTheColorCameraSeesAndNoMore) {
-  // A square at 2 m before a wall that is not measured, and 0.2 m off in the colour camera, which is twice as fine.
+  // A square at 2 m before a wall that is not measured, and 0.2 m off in the colour camera, which is twice as
+  // fine.
   constexpr CameraIntrinsics color_camera{128, 96, 100.0, 100.0, 63.0, 47.0};
   cv::Mat depth = cv::Mat::zeros(kDepthCamera.height, kDepthCamera.width, CV_32FC1);
   depth(cv::Rect(20, 10, 16, 12)).setTo(2.0);

@@ -2,13 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 
-#include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
-#include "geometry/kernel_args.h"
-#include "reference/depth_preprocessing.h"
+#include "support/busy_depth.h"
 #include "support/expect_error.h"
 #include "support/normal_images.h"
 #include "support/test_compute.h"
@@ -17,37 +14,7 @@
 namespace depth_fusion {
 namespace {
 
-CameraIntrinsics cameraOfSize(int width, int height) {
-  return {width, height, 0.8 * width, 0.82 * width, 0.5 * width - 0.7, 0.5 * height + 0.3};
-}
-
-RgbdFrame frameOf(const cv::Mat& depth, double unit_m = 1.0) {
-  RgbdFrame frame;
-  frame.depth = depth;
-  frame.depth_unit_m = unit_m;
-  return frame;
-}
-
-// Noisy surfaces at two depths with holes, out-of-range pixels among them.
-cv::Mat busyDepth(const CameraIntrinsics& camera) {
-  cv::Mat depth(camera.height, camera.width, CV_32FC1);
-  cv::RNG random(3);
-  reference::forEachPixel<float>(depth, [&](int x, int y, float& pixel) {
-    const bool near = (x / 23 + y / 17) % 3 == 0;
-    pixel = static_cast<float>((near ? 1.1 : 1.6) + 0.002 * x + 0.001 * y + random.gaussian(0.003));
-    if (random.uniform(0, 25) == 0) pixel = random.uniform(0, 2) == 0 ? 0.0f : 7.0f;
-  });
-  return depth;
-}
-
 double largestDifference(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF); }
-
-// Elements of the image's buffer that are not 0, beside its pixels.
-long nonzeroPadding(const DeviceBuffer& image, const CameraIntrinsics& camera) {
-  const std::vector<uint32_t> elements = image.read<uint32_t>(imageElements(camera));
-  const long nonzero = elements.size() - std::count(elements.begin(), elements.end(), 0u);
-  return nonzero - cv::countNonZero(readImage(image, camera));
-}
 
 TEST(DepthPreprocessor, NewParametersAreThoseOfAFreshOne) {
   const CameraIntrinsics camera = cameraOfSize(64, 48);
@@ -74,7 +41,8 @@ TEST(DepthPreprocessor, RefusedParametersChangeNothing) {
   PreprocessingParameters parameters;
   DepthPreprocessor preprocessor(compute(), parameters, camera);
   parameters.min_range_m = parameters.max_range_m;
-  expectError([&] { preprocessor.setParameters(parameters, {}); }, {"preprocessing/min_range_m must be below"});
+  expectError([&] { preprocessor.setParameters(parameters, {}); },
+              {"preprocessing/min_range_m must be below"});
   EXPECT_GT(cv::countNonZero(readImage(preprocessor.process(frameOf(busyDepth(camera))).raw_depth, camera)),
             0);
 }
@@ -112,7 +80,8 @@ TEST(DepthPreprocessor, DepthIsCorrectedByTheOffsets) {
       const double measured_m = value * unit_m;
       const double expected_m = measured_m / (1.0 + measured_m * offsets.at<float>(y, x));
       if (corrected == 0.0f) {
-        ASSERT_TRUE(expected_m < parameters.min_range_m + 1e-5 || expected_m > parameters.max_range_m - 1e-5) << x << " " << y;
+        ASSERT_TRUE(expected_m < parameters.min_range_m + 1e-5 || expected_m > parameters.max_range_m - 1e-5)
+            << x << " " << y;
       } else {
         ASSERT_NEAR(corrected, expected_m, 1e-5) << x << " " << y;
       }
@@ -163,49 +132,6 @@ TEST(DepthPreprocessor, EveryStepEqualsTheReference) {
       expected = reference::halveDepth(depth, parameters.bilateral_cutoff_sigmas);
     }
   }
-}
-
-// The device's measurements, unpacked, against the reference's; depth differs by half a step, the others by half a code.
-void expectMeasurements(const DepthFrame& frame, const cv::Mat& weights) {
-  const DepthLevel& level = frame.levels[0];
-  const cv::Mat depth = readImage(level.depth, level.camera);
-  const cv::Mat normals = readNormals(level.normals, level.camera);
-  cv::Mat expected = reference::measurements(depth, normals, weights, level.camera);
-  const cv::Mat words = readImage(frame.measurements, level.camera);
-  reference::forEachPixel<cv::Vec3f>(expected, [&](int x, int y, const cv::Vec3f& pixel) {
-    uint32_t word = 0;
-    std::memcpy(&word, words.ptr<float>(y, x), sizeof(word));
-    const cv::Vec3f measured = reference::unpackedMeasurement(word, frame.depth_step_m);
-    ASSERT_NEAR(measured[0], pixel[0], 0.51f * frame.depth_step_m) << x << " " << y;
-    ASSERT_NEAR(measured[1], pixel[1], 0.52f / MEASUREMENT_MAX) << x << " " << y;
-    ASSERT_NEAR(measured[2], std::max(pixel[2], pixel[0] == 0.0f ? 0.0f : 1.0f / MEASUREMENT_MAX),
-                0.52f / MEASUREMENT_MAX)
-        << x << " " << y;
-  });
-}
-
-TEST(DepthPreprocessor, MeasurementsEqualTheReference) {
-  for (const auto& [width, height] : {std::pair{100, 75}, {33, 31}}) {
-    const CameraIntrinsics camera = cameraOfSize(width, height);
-    DepthPreprocessor preprocessor(compute(), {}, camera);
-    const DepthFrame& frame = preprocessor.process(frameOf(busyDepth(camera)));
-    expectMeasurements(frame, cv::Mat());
-    EXPECT_EQ(nonzeroPadding(frame.measurements, camera), 0);
-  }
-}
-
-TEST(DepthPreprocessor, PixelsWithoutAProperWeightAreNotMeasured) {
-  const CameraIntrinsics camera = cameraOfSize(100, 75);
-  DepthPreprocessor preprocessor(compute(), {}, camera);
-  RgbdFrame input = frameOf(busyDepth(camera));
-  input.weights = cv::Mat(camera.height, camera.width, CV_32FC1);
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const float infinity = std::numeric_limits<float>::infinity();
-  const std::vector<float> values = {1.0f, 0.25f, 1e-8f, 0.0f, -0.5f, nan, infinity, -infinity, 1.5f};
-  reference::forEachPixel<float>(input.weights, [&](int x, int, float& weight) { weight = values[x % 9]; });
-  expectMeasurements(preprocessor.process(input), input.weights);
-  input.weights = cv::Mat();
-  expectMeasurements(preprocessor.process(input), cv::Mat());
 }
 
 TEST(DepthPreprocessor, SensorLimitsTheRange) {

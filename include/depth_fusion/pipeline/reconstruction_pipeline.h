@@ -21,8 +21,9 @@ class ReconstructionPipeline {
   ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
                          const CameraIntrinsics& camera);
 
-  // A lost frame changes nothing in the map. `next` is the frame that the next call is for, if it is there already: its
-  // texture odometry runs beside this frame's stages, and its preprocessing beside this frame's fusion and model view.
+  // A lost frame changes nothing in the map. `next` is the frame that the next call is for, if it is there
+  // already: its texture odometry runs beside this frame's stages, and its preprocessing beside this frame's
+  // fusion and model view.
   FrameResult processFrame(const RgbdFrame& frame, const RgbdFrame* next = nullptr);
 
   // The same with a pose from elsewhere in place of tracking; lost only if there is no depth.

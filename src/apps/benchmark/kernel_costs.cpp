@@ -29,6 +29,8 @@ std::optional<KernelCost> kernelCost(const std::string& kernel, const StageFixtu
   const std::map<std::string, KernelCost> costs = {
       {"depth_to_metres_u16", {"pixel", 1.0 * width, 2 + 4, 2, 0}},
       {"depth_to_metres_f32", {"pixel", 1.0 * width, 4 + 4, 2, 0}},
+      {"rectify_depth", {"pixel", 1.0 * width, 4 + 4, 90, 4}},
+      {"splat_depth", {"pixel", 1.0 * width, 4 + 4, 40, 1}},
       {"compensate_motion", {"pixel", 1.0 * width, 4 + 4, 80, 2}},
       {"filter_bilateral", {"pixel", 1.0 * width, 4 + 4, 25 * 10 + 10, 0}},
       {"halve_depth", {"pixel", 1.0 * width, 16 + 4, 20, 0}},

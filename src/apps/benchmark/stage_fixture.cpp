@@ -16,6 +16,23 @@ PipelineParameters fixtureParameters(const TrackingInput& input) {
   return withinSensorRange(parameters);
 }
 
+// As of cfg/cameras/tum_freiburg1.yaml.
+RgbdFrame throughLenses(RgbdFrame frame) {
+  frame.distortion = frame.color_distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
+  return frame;
+}
+
+RgbdFrame besideColor(RgbdFrame frame) {
+  frame.T_C_D = Pose(Eigen::Translation3d(-0.025, 0.0, 0.0));
+  return frame;
+}
+
+RegistrationParameters depthToColor() {
+  RegistrationParameters parameters;
+  parameters.depth_to_color = true;
+  return parameters;
+}
+
 Vector6d handVelocity() {
   Vector6d velocity;
   velocity << 0.2, -0.1, 0.1, 0.3, -0.2, 0.1;
@@ -63,6 +80,10 @@ StageFixture::StageFixture(ComputeContext& compute, const TrackingInput& input)
       T_W_D_(fuseFirstFrames(pipeline_, input)),
       fused_map_(pipeline_.map().snapshot()),
       parameters_(pipeline_.parameters()),
+      bent_frame_(throughLenses(frame_)),
+      beside_frame_(besideColor(frame_)),
+      rectification_(compute, RegistrationParameters()),
+      depth_to_color_(compute, depthToColor()),
       preprocessor_(compute, parameters_.preprocessing, frame_.intrinsics, parameters_.depth_sensor),
       next_preprocessor_(compute, parameters_.preprocessing, frame_.intrinsics, parameters_.depth_sensor),
       odometry_(parameters_.texture_odometry, parameters_.depth_sensor),
@@ -81,7 +102,9 @@ StageFixture::StageFixture(ComputeContext& compute, const TrackingInput& input)
 }
 
 const std::vector<StageFixture::Stage>& StageFixture::stages() {
-  static const std::vector<Stage> all = {{"preprocessing", &StageFixture::preprocess, true},
+  static const std::vector<Stage> all = {{"registration", &StageFixture::rectify},
+                                         {"registration/depth_to_color", &StageFixture::moveDepth},
+                                         {"preprocessing", &StageFixture::preprocess, true},
                                          {"texture_odometry", &StageFixture::matchTexture},
                                          {"icp_tracking", &StageFixture::track},
                                          {"icp_tracking/level0", &StageFixture::accumulateLevel<0>, false, 0},
@@ -99,6 +122,10 @@ void StageFixture::run(const Stage& stage) {
   (this->*stage.run)();
   compute_.finish();
 }
+
+void StageFixture::rectify() { rectification_.process(bent_frame_); }
+
+void StageFixture::moveDepth() { depth_to_color_.process(beside_frame_); }
 
 void StageFixture::preprocess() { preprocessor_.process(frame_, handVelocity()); }
 

@@ -30,6 +30,8 @@ class StageFixture {
   const MapParameters& mapParameters() { return pipeline_.map().parameters(); }
 
  private:
+  void rectify();
+  void moveDepth();
   void preprocess();
   void matchTexture();
   void track();
@@ -47,6 +49,8 @@ class StageFixture {
   Pose T_W_D_;                                 // of frame_
   std::unique_ptr<BlockSparseMap> fused_map_;  // as it is before fusion goes on, for the stages that read it
   PipelineParameters parameters_;
+  RgbdFrame bent_frame_, beside_frame_;  // frame_ as if through lenses, and with the colour camera elsewhere
+  FrameRegistration rectification_, depth_to_color_;
   DepthPreprocessor preprocessor_, next_preprocessor_;
   TextureOdometry odometry_;
   IcpTracker tracker_;
