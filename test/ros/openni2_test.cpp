@@ -190,15 +190,13 @@ TEST_F(OpenNi2Map, DroppedFramesAreCountedAndBridged) {
   ASSERT_NE(last, nullptr);
   EXPECT_TRUE(neverLost());
   expectMotion(poseOf(*first), poseOf(*last), 20);
-  EXPECT_NE(diagnostics_.await([&](const DiagnosticArray& array) {
-    for (const DiagnosticStatus& status : array.status) {
-      for (const auto& value : status.values) {
-        if (value.key.find("missed by the camera") != std::string::npos) return true;
-      }
-    }
-    return false;
-  }),
-            nullptr);
+  const auto counted = diagnostics_.await("acquisition", [](const DiagnosticStatus& status) {
+    return std::any_of(status.values.begin(), status.values.end(),
+                       [](const diagnostic_msgs::KeyValue& value) {
+                         return value.key.find("missed by the camera") != std::string::npos;
+                       });
+  });
+  EXPECT_NE(counted.level, -1);
 }
 
 }  // namespace

@@ -1,14 +1,13 @@
 // Drivers whose depth is not registered to colour, and whose lenses distort: camera_info and tf say how to
 // put that right.
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include "depth_fusion/evaluation/mesh_error.h"
 #include "ros/nodelets/frames.h"
 #include "ros/nodelets/shared_map.h"
+#include "support/diagnostics.h"
 #include "support/distorted_view.h"
-#include "support/nodelet_graph.h"
 
 namespace depth_fusion {
 namespace {
@@ -46,7 +45,7 @@ class UnregisteredDepth : public testing::Test {
       : name_(testing::UnitTest::GetInstance()->current_test_info()->name()),
         graph_("unregistered_" + name_),
         camera_(graph_.handle(), name_ + "_depth", name_ + "_color"),
-        diagnostics_(graph_.handle(), "/diagnostics") {}
+        diagnostics_(graph_.handle()) {}
 
   void publishTf() {
     broadcaster_.sendTransform(
@@ -54,17 +53,13 @@ class UnregisteredDepth : public testing::Test {
   }
 
   // Some nodelet says so.
-  bool isDiagnosed(const std::vector<std::string>& words) {
-    return eventually([&] {
-      const auto messages = diagnostics_.all();
-      return std::any_of(messages.begin(), messages.end(), [&](const auto& message) {
-        return std::any_of(message->status.begin(), message->status.end(), [&](const auto& status) {
-          return status.level > 0 && std::all_of(words.begin(), words.end(), [&](const std::string& word) {
-                   return status.message.find(word) != std::string::npos;
-                 });
-        });
-      });
+  bool isDiagnosed(const std::vector<std::string>& words) const {
+    const auto status = diagnostics_.await("", [&](const diagnostic_msgs::DiagnosticStatus& said) {
+      return said.level > 0 && std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+               return said.message.find(word) != std::string::npos;
+             });
     });
+    return status.level > 0;
   }
 
   // The frames end in the right pose and on the right surface.
@@ -107,7 +102,7 @@ class UnregisteredDepth : public testing::Test {
   std::string name_;
   NodeletGraph graph_;
   FakeCamera camera_;
-  Listener<diagnostic_msgs::DiagnosticArray> diagnostics_;
+  Diagnostics diagnostics_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
 };
 

@@ -1,14 +1,11 @@
 // A simulated camera behind OpenNI2 itself, and the acquisition nodelet that reads it.
 #pragma once
 
-#include <diagnostic_msgs/DiagnosticArray.h>
-
-#include "support/nodelet_graph.h"
+#include "support/diagnostics.h"
 #include "support/test_device.h"
 
 namespace depth_fusion {
 
-using diagnostic_msgs::DiagnosticArray;
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr int kFrames = 60;
@@ -30,7 +27,7 @@ class OpenNi2 : public testing::Test {
   OpenNi2()
       : graph_(std::string("openni2_") + testing::UnitTest::GetInstance()->current_test_info()->name()),
         device_(roomFrames()),
-        diagnostics_(graph_.handle(), "/diagnostics") {
+        diagnostics_(graph_.handle()) {
     device_.control.fps = 10.0;  // the test machine has more to do
     device_.apply();
     set("device_id", std::string("#1"));
@@ -44,21 +41,13 @@ class OpenNi2 : public testing::Test {
   }
 
   // That acquisition says so from now on.
-  bool says(int level, const std::string& words) {
-    const size_t before = diagnostics_.count();
-    size_t seen = 0;
-    return diagnostics_.await([&](const DiagnosticArray& array) {
-      if (++seen <= before) return false;
-      return std::any_of(array.status.begin(), array.status.end(), [&](const DiagnosticStatus& status) {
-        return status.name.find(graph_.resolve("acquisition").substr(1)) != std::string::npos &&
-               status.level == level && status.message.find(words) != std::string::npos;
-      });
-    }) != nullptr;
+  bool says(int level, const std::string& words) const {
+    return diagnostics_.says("acquisition", level, words);
   }
 
   NodeletGraph graph_;
   TestDevice device_;
-  Listener<DiagnosticArray> diagnostics_;
+  Diagnostics diagnostics_;
 };
 
 }  // namespace depth_fusion
