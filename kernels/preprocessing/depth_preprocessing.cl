@@ -123,18 +123,17 @@ __kernel void compute_normals(__global const float *depth, __global uint *normal
   VSTORE(normal, normals + index);
 }
 
-// The largest depth of each 16x16 tile.
+// The largest depth of each 8x8 tile.
 __kernel void max_tiles(__global const float *depth, __global float *tiles, CameraArgs camera, int tile_columns,
                         int tile_count) {
   const int tile = get_global_id(0);
   if (tile >= tile_count) return;
   const int x = (tile % tile_columns) * DEPTH_TILE;
   const int y = (tile / tile_columns) * DEPTH_TILE;
-  float16 largest = 0.0f;
+  float8 largest = 0.0f;
   for (int row = y; row < min(y + DEPTH_TILE, camera.height); ++row) {
-    largest = fmax(largest, vload16(0, depth + pixel_index(x, row, camera)));
+    largest = fmax(largest, vload8(0, depth + pixel_index(x, row, camera)));
   }
-  const float8 a = fmax(largest.lo, largest.hi);
-  const float4 b = fmax(a.lo, a.hi);
-  tiles[tile] = fmax(fmax(b.x, b.y), fmax(b.z, b.w));
+  const float4 a = fmax(largest.lo, largest.hi);
+  tiles[tile] = fmax(fmax(a.x, a.y), fmax(a.z, a.w));
 }

@@ -17,12 +17,16 @@ inline int block_address(int3 block, const GridArgs grid) {
   return in_window.x + n * (in_window.y + n * in_window.z);
 }
 
+// The slot with a number of the groups in view, or -1 if there is none.
+inline int numbered_slot(int number, __global const int *groups, int group_count, int slots) {
+  if (number >= group_count * SLOTS_PER_GROUP) return -1;
+  const int slot = groups[number / SLOTS_PER_GROUP] * SLOTS_PER_GROUP + number % SLOTS_PER_GROUP;
+  return slot < slots ? slot : -1;
+}
+
 // The work-item's slot of the groups in view, or -1 if it has none.
 inline int slot_in_view(__global const int *groups, int group_count, int slots) {
-  const int item = get_global_id(0);
-  if (item >= group_count * SLOTS_PER_GROUP) return -1;
-  const int slot = groups[item / SLOTS_PER_GROUP] * SLOTS_PER_GROUP + item % SLOTS_PER_GROUP;
-  return slot < slots ? slot : -1;
+  return numbered_slot(get_global_id(0), groups, group_count, slots);
 }
 
 // Number of a voxel in its block.

@@ -40,8 +40,11 @@
 // Slots, one after the other, that are looked at or left out together.
 #define SLOTS_PER_GROUP 64
 
+// Slots that a work-item tests for visibility: one on a GPU; on a CPU many, which it lists with one atomic.
+#define SLOTS_PER_ITEM(simd_width) ((simd_width) == 1 ? 1 : 16)
+
 // Pixels per axis of the tiles with the largest depth, and with the range of the rays.
-#define DEPTH_TILE 16
+#define DEPTH_TILE 8
 #define RANGE_TILE 8
 
 // A unit normal (x, y, z) of a pixel in a word, 0 = none: its stereographic projection from (0, 0, 1), x / (1 - z) in the low

@@ -80,41 +80,66 @@ __kernel void request_blocks(__global const float *depth, __global int *offsets,
   if (ANY(outside)) atomic_add(points_outside, (int)SUM_LANES(select((vfloat)(0.0f), (vfloat)(1.0f), outside)));
 }
 
-// A work-item tests one slot of the groups in view. A block is visible if the sphere around it meets the image where the measured depth,
-// plus the truncation, is not in front of it.
+// From a voxel's pixel to those that its depth was filtered from.
+#define FILTER_REACH_PX 2.5f
+
+// The first and the last column, or row, that may have to do with points between from_m and to_m beside the axis, at depths
+// between nearest and farthest.
+inline int2 pixel_range(float from_m, float to_m, float nearest, float farthest, float f, float c, int size) {
+  const float first = f * from_m / (from_m < 0.0f ? nearest : farthest) + c - FILTER_REACH_PX;
+  const float last = f * to_m / (to_m < 0.0f ? farthest : nearest) + c + FILTER_REACH_PX;
+  return (int2)(clamp((int)first, 0, size - 1), clamp((int)last, 0, size - 1));
+}
+
+inline float half_extent(const TransformArgs T_D_W, int row, float block_m) {
+  __private const float *r = T_D_W.rotation + 3 * row;
+  return 0.5f * block_m * (fabs(r[0]) + fabs(r[1]) + fabs(r[2]));
+}
+
+// A block is visible if the box around it, along the camera's axes, meets the image where the measured depth, plus the
+// truncation, is not in front of it.
+inline bool is_visible(int3 block, __global const float *max_tiles, const CameraArgs camera, const TransformArgs T_D_W,
+                       const GridArgs grid) {
+  const float block_m = grid.voxel_size_m * BLOCK_SIZE;
+  const float radius = 0.8660254f * block_m;
+  const float3 centre = transform_point(T_D_W, (convert_float3(block) + 0.5f) * block_m);
+  if (!sphere_in_view(centre, radius, camera)) return false;
+  const float half_x = half_extent(T_D_W, 0, block_m), half_y = half_extent(T_D_W, 1, block_m);
+  const float half_z = half_extent(T_D_W, 2, block_m);
+  const float nearest = centre.z - half_z;
+  int2 x = (int2)(0, camera.width - 1), y = (int2)(0, camera.height - 1);
+  if (nearest > 0.1f) {
+    x = pixel_range(centre.x - half_x, centre.x + half_x, nearest, centre.z + half_z, camera.fx, camera.cx, camera.width);
+    y = pixel_range(centre.y - half_y, centre.y + half_y, nearest, centre.z + half_z, camera.fy, camera.cy, camera.height);
+  }
+  const int tile_columns = (camera.width + DEPTH_TILE - 1) / DEPTH_TILE;
+  float farthest = 0.0f;
+  for (int row = y.lo / DEPTH_TILE; row <= y.hi / DEPTH_TILE; ++row) {
+    for (int column = x.lo / DEPTH_TILE; column <= x.hi / DEPTH_TILE; ++column) {
+      farthest = fmax(farthest, max_tiles[row * tile_columns + column]);
+    }
+  }
+  return farthest > 0.0f && nearest <= farthest + grid.truncation_m / MIN_COSINE;
+}
+
+// A work-item tests SLOTS_PER_ITEM slots of the groups in view.
 __kernel void list_visible_blocks(__global const int *groups, int group_count, int slots,
                                   __global const int4 *block_indices, __global int *block_states,
                                   __global const float *max_tiles, __global int *visible, __global int *count,
                                   CameraArgs camera, TransformArgs T_D_W, GridArgs grid) {
-  const int slot = slot_in_view(groups, group_count, slots);
-  if (slot < 0) return;
-  const int4 index = block_indices[slot];
-  if (index.w == 0) return;
-  const float block_m = grid.voxel_size_m * BLOCK_SIZE;
-  const float radius = 0.8660254f * block_m;
-  const float3 centre = transform_point(T_D_W, (convert_float3(index.xyz) + 0.5f) * block_m);
-  if (!sphere_in_view(centre, radius, camera)) return;
-  const float nearest = centre.z - radius;
-  int x0 = 0, y0 = 0, x1 = camera.width - 1, y1 = camera.height - 1;
-  if (nearest > 0.1f) {
-    const float inverse = 1.0f / centre.z;
-    const float u = camera.fx * centre.x * inverse + camera.cx;
-    const float v = camera.fy * centre.y * inverse + camera.cy;
-    const float extent_u = camera.fx * radius * inverse * 1.5f + 1.0f;
-    const float extent_v = camera.fy * radius * inverse * 1.5f + 1.0f;
-    x0 = clamp((int)(u - extent_u), 0, x1);
-    y0 = clamp((int)(v - extent_v), 0, y1);
-    x1 = clamp((int)(u + extent_u), 0, x1);
-    y1 = clamp((int)(v + extent_v), 0, y1);
+  int found[SLOTS_PER_ITEM(SIMD_WIDTH)], found_count = 0;
+  for (int i = 0; i < SLOTS_PER_ITEM(SIMD_WIDTH); ++i) {
+    const int number = get_global_id(0) * SLOTS_PER_ITEM(SIMD_WIDTH) + i;
+    const int slot = numbered_slot(number, groups, group_count, slots);
+    if (slot < 0 || block_indices[slot].w == 0) continue;
+    if (is_visible(block_indices[slot].xyz, max_tiles, camera, T_D_W, grid)) found[found_count++] = slot;
   }
-  const int tile_columns = (camera.width + DEPTH_TILE - 1) / DEPTH_TILE;
-  float farthest = 0.0f;
-  for (int y = y0 / DEPTH_TILE; y <= y1 / DEPTH_TILE; ++y) {
-    for (int x = x0 / DEPTH_TILE; x <= x1 / DEPTH_TILE; ++x) farthest = fmax(farthest, max_tiles[y * tile_columns + x]);
+  if (found_count == 0) return;
+  const int first = atomic_add(count, found_count);
+  for (int i = 0; i < found_count; ++i) {
+    block_states[found[i]] = 0;
+    visible[first + i] = found[i];
   }
-  if (farthest <= 0.0f || nearest > farthest + grid.truncation_m / MIN_COSINE) return;
-  block_states[slot] = 0;
-  visible[atomic_inc(count)] = slot;
 }
 
 // A work-item tests one block of the visible list after fusion; those without data leave the map.

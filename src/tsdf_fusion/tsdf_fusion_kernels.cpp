@@ -43,17 +43,17 @@ void TsdfFusion::Kernels::requestBlocks(const DepthFrame& frame, BlockSparseMap&
   const CameraIntrinsics& camera = frame.levels[0].camera;
   const auto samples = [&](int pixels) { return (pixels + args.stride_px - 1) / args.stride_px; };
   const size_t vectors = (samples(camera.width) + simd_width_ - 1) / simd_width_;
-  request_.run2d(vectors, samples(camera.height), frame.raw_depth, map.offsets(), requests,
-                 count, points_outside, toArgs(camera), toArgs(T_W_D), gridArgs(map), args);
+  request_.run2d(vectors, samples(camera.height), frame.raw_depth, map.offsets(), requests, count,
+                 points_outside, toArgs(camera), toArgs(T_W_D), gridArgs(map), args);
 }
 
 void TsdfFusion::Kernels::listVisibleBlocks(const DepthFrame& frame, BlockSparseMap& map,
                                             DeviceBuffer& visible, DeviceBuffer& count, const Pose& T_D_W) {
   const CameraIntrinsics& camera = frame.levels[0].camera;
   in_view_.list(map, camera, T_D_W, frame.maxRange_m() + map.parameters().truncation_m / MIN_COSINE);
-  visible_.run(in_view_.slots(), in_view_.groups(), in_view_.groupCount(), map.slotBound(),
-               map.blockIndices(), map.blockStates(), frame.max_tiles, visible, count, toArgs(camera),
-               toArgs(T_D_W), gridArgs(map));
+  visible_.run(in_view_.slots() / SLOTS_PER_ITEM(simd_width_), in_view_.groups(), in_view_.groupCount(),
+               map.slotBound(), map.blockIndices(), map.blockStates(), frame.max_tiles, visible, count,
+               toArgs(camera), toArgs(T_D_W), gridArgs(map));
 }
 
 void TsdfFusion::Kernels::integrateBlocks(const DepthFrame& frame, BlockSparseMap& map,

@@ -41,7 +41,7 @@ struct DepthLevel {
 
 struct DepthFrame {
   DeviceBuffer raw_depth;          // metres in range, motion compensated, unfiltered, 0 = none; camera of levels[0]
-  DeviceBuffer max_tiles;          // the largest raw depth of each 16x16 tile, row by row
+  DeviceBuffer max_tiles;          // the largest raw depth of each 8x8 tile, row by row
   DeviceBuffer measurements;       // what fusion needs of levels[0]: a word a pixel (kernels/shared/types.h)
   float depth_step_m = 0.0f;       // of the measurements
   std::vector<DepthLevel> levels;  // filtered; full size first, each half the size of the one before

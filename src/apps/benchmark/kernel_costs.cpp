@@ -39,7 +39,7 @@ std::optional<KernelCost> kernelCost(const std::string& kernel, const StageFixtu
       {"max_tiles", {"pixel", DEPTH_TILE * DEPTH_TILE, 4, 1, 0}},
       {"accumulate_system", {"pixel", row_part, 8, 170, 2}},
       {"request_blocks", {"pixel", 1.0 * width, 4, 40 + 12 * band_samples, band_samples}},
-      {"list_visible_blocks", {"block", 1, 16 + 4, 50, 4}},
+      {"list_visible_blocks", {"block", 1.0 * SLOTS_PER_ITEM(width), 16 + 4, 50, 4}},
       {"integrate_blocks", {"voxel", voxels, 2 + 2, 60, 1}},
       {"splat_block_ranges", {"block", 1, 16 + 4, 150, 4}},
       {"raycast", {"ray", rays, 4 + 4, 150 + 15 * kRaySteps, 16 + kRaySteps / 2}},
