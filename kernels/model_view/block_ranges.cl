@@ -14,13 +14,9 @@ typedef struct {
   float8 lowest, highest;
 } Extents;
 
-inline Extents depth_extents(float8 centre_z, float reach_z) {
-  const Extents depth = {centre_z - reach_z, centre_z + reach_z};
-  return depth;
-}
-
 // Of boxes along the axes of frame D. One that reaches behind the camera covers what its part ahead of it covers.
-inline Extents pixel_extents(float8 centre, float reach, const Extents depth, float focal_length, float image_centre) {
+inline Extents pixel_extents(float8 centre, float reach, const Extents depth, float focal_length,
+                             float image_centre) {
   const float8 near = focal_length / max(depth.lowest, (float8)(1e-3f)), far = focal_length / depth.highest;
   const float8 lowest = centre - reach, highest = centre + reach;
   const Extents pixels = {min(lowest * near, lowest * far) + image_centre,
@@ -63,7 +59,7 @@ __kernel void splat_block_ranges(__global const int *groups, int group_count, in
   const float8 x = middle.x + SIDE_X * axis_x.x + SIDE_Y * axis_y.x + SIDE_Z * axis_z.x;
   const float8 y = middle.y + SIDE_X * axis_x.y + SIDE_Y * axis_y.y + SIDE_Z * axis_z.y;
   const float8 z = middle.z + SIDE_X * axis_x.z + SIDE_Y * axis_y.z + SIDE_Z * axis_z.z;
-  const Extents depth = depth_extents(z, reach.z);
+  const Extents depth = {z - reach.z, z + reach.z};
   const Extents u = pixel_extents(x, reach.x, depth, camera.fx, camera.cx);
   const Extents v = pixel_extents(y, reach.y, depth, camera.fy, camera.cy);
   const float8 start = max(depth.lowest, (float8)(range.min_m)), end = min(depth.highest, (float8)(range.max_m));

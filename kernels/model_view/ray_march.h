@@ -150,7 +150,9 @@ inline void follow(March *marches, int count, const Point origin, __global const
     Voxels at[MAX_MARCHES];
     active = 0;
 #pragma unroll
-    for (int i = 0; i < count; ++i) if (ANY(marches[i].active)) at[i] = look(marches[i], middle, offsets, voxels, grid);
+    for (int i = 0; i < count; ++i) {
+      if (ANY(marches[i].active)) at[i] = look(marches[i], middle, offsets, voxels, grid);
+    }
 #pragma unroll
     for (int i = 0; i < count; ++i) {
       if (!ANY(marches[i].active)) continue;

@@ -33,7 +33,7 @@ inline Surface find_surface(const Rays rays, vfloat t, vint active, const Point 
   return surface;
 }
 
-// Where other rays, a pixel beside, meet the plane of a surface, if the surface is there.
+// Where other rays, a pixel beside, meet the plane of a surface, if the surface is there, within a voxel.
 inline Surface find_beside(const Rays rays, const Rays first_rays, const Surface first, vint in_view,
                            const Point origin, __global const int *offsets, __global const char *voxels,
                            const GridArgs grid) {
@@ -84,7 +84,8 @@ inline void store_surfaces(const Surface even, const Surface odd, int x, int y, 
   store_rows(normal_bits(even, T_W_D), normal_bits(odd, T_W_D), x, y, normals, camera);
 }
 
-// Pixels whose rays are yet to be followed, as column and row, 16 bits each.
+// Pixels whose rays are yet to be followed, as column and row, 16 bits each. Few of a patch's are, so that those of all
+// the patches are put together into vectors.
 typedef struct {
   uint pixels[PATCHES * (PATCH_RAYS - 1) * SIMD_WIDTH + SIMD_WIDTH];
   int count;
@@ -171,7 +172,7 @@ __kernel void raycast(__global const int *offsets, __global const char *voxels, 
       const vint in_view = (column < camera.width) & (row < camera.height);
       const Rays rays = make_rays(column, row, camera, T_W_D, grid);
       surfaces[k] = find_beside(rays, first_rays, surfaces[0], in_view, origin, offsets, voxels, grid);
-  append(&missing, column, row, in_view & surfaces[0].known & NOT(surfaces[k].known));
+      append(&missing, column, row, in_view & surfaces[0].known & NOT(surfaces[k].known));
     }
     for (int k = 0; k < PATCH_RAYS; k += RAY_STRIDE) {
       store_surfaces(surfaces[k], surfaces[k + 1], patch_x, y + k / RAY_STRIDE, depth, normals, camera, T_W_D);
