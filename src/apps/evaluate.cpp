@@ -1,7 +1,6 @@
 // Measures trajectories against ground truth and meshes against the exact surface of a built-in scene.
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/command_line.h"
 #include "depth_fusion/common/error.h"
@@ -10,6 +9,7 @@
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/simulation/scene_library.h"
 #include "depth_fusion/surface_mesh/ply.h"
+#include "recording/image_file.h"
 
 namespace depth_fusion {
 namespace {
@@ -111,16 +111,6 @@ void print(const MeshError& error) {
   printRow("of the surface", error.surface_m, 1000.0, "mm");
 }
 
-void writePlot(const std::string& path, const TrajectoryError& error) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path, plotTrajectories(error));
-  } catch (const cv::Exception&) {
-    throw Error(path + ": OpenCV knows no picture format of this ending; use .png");
-  }
-  check(written, path + ": the picture cannot be written; does its folder exist and is it writable?");
-}
-
 void evaluate(const Arguments& arguments) {
   check(!arguments.trajectory.empty() || !arguments.mesh.empty(),
         "nothing to measure; give --trajectory and --groundtruth, or --mesh and --scene (see --help)");
@@ -135,7 +125,7 @@ void evaluate(const Arguments& arguments) {
       T_W_M = error.T_W_E;
       report["trajectory"] = toJson(error);
       if (!arguments.json) print(error, arguments.options);
-      if (!arguments.plot.empty()) writePlot(arguments.plot, error);
+      if (!arguments.plot.empty()) writePicture(arguments.plot, plotTrajectories(error));
     }
   }
   if (!arguments.mesh.empty()) {

@@ -1,12 +1,12 @@
 // plan_resolution: which N and M to map with, from what a recording or a mesh takes.
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/command_line.h"
 #include "apps/plan_resolution/count.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/evaluation/memory_plot.h"
+#include "recording/image_file.h"
 #include "recording/text_file.h"
 
 namespace depth_fusion {
@@ -128,8 +128,7 @@ void plan(Options& options) {
   const PlanRow& best = tryBest(plan, counting, !options.no_trial);
   printTable(plan);
   writeText(options.output + "/memory.csv", table(plan));
-  const std::string figure = options.output + "/memory.png";
-  check(cv::imwrite(figure, plotMemory(plan)), "picture " + figure + " cannot be written");
+  writePicture(options.output + "/memory.png", plotMemory(plan));
   writeChoice(best, options.request, options.output + "/map.yaml");
 }
 

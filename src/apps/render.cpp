@@ -1,11 +1,11 @@
 // render: a picture of a mesh.
 #include <iostream>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/command_line.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/surface_mesh/mesh_picture.h"
 #include "depth_fusion/surface_mesh/ply.h"
+#include "recording/image_file.h"
 
 namespace depth_fusion {
 namespace {
@@ -44,16 +44,6 @@ Pose poseFrom(const std::vector<double>& numbers) {
   T_W_C.linear() = rotation.normalized().toRotationMatrix();
   T_W_C.translation() = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
   return T_W_C;
-}
-
-void writePicture(const std::string& path, const cv::Mat& picture) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path, picture);
-  } catch (const cv::Exception& error) {
-    throw Error("picture " + path + " cannot be written: " + error.err);
-  }
-  check(written, "picture " + path + " cannot be written; is the folder there and writable?");
 }
 
 void render(const Options& options) {

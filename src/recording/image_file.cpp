@@ -118,4 +118,14 @@ void writePng(const std::string& path, const cv::Mat& image) {
   writeText(path, std::string(bytes.begin(), bytes.end()));
 }
 
+void writePicture(const std::string& path, const cv::Mat& picture) {
+  bool written = false;
+  try {
+    written = cv::imwrite(path, picture);
+  } catch (const cv::Exception&) {
+    throw Error("picture " + path + ": OpenCV knows no picture format of this ending; use .png");
+  }
+  check(written, "picture " + path + " cannot be written; is its folder there and writable?");
+}
+
 }  // namespace depth_fusion

@@ -4,11 +4,10 @@
 
 #include <cstdio>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 
-#include "depth_fusion/common/error.h"
 #include "depth_fusion/evaluation/line_plot.h"
 #include "depth_fusion/evaluation/power_law.h"
+#include "recording/image_file.h"
 #include "recording/text_file.h"
 
 namespace depth_fusion {
@@ -79,7 +78,7 @@ void report(const GrowthCurve& curve, const std::string& folder) {
   writeText(path + ".csv", table);
   LinePlot plot{curve.title, curve.x_label, "median time a frame [ms]", {}, curve.logarithmic};
   for (size_t stage = 0; stage < growthStages().size(); ++stage) plot.lines.push_back(lineOf(curve, stage));
-  check(cv::imwrite(path + ".png", draw(plot)), "picture " + path + ".png cannot be written");
+  writePicture(path + ".png", draw(plot));
   if (curve.samples.size() > 1) printExponents(curve, plot.lines);
 }
 

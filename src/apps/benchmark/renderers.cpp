@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/benchmark/resolution.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/evaluation/line_plot.h"
+#include "recording/image_file.h"
 #include "recording/text_file.h"
 
 namespace depth_fusion {
@@ -94,7 +94,7 @@ void run(const ResolutionOptions& options) {
   }
   const std::string path = options.output + "/renderers";
   writeText(path + ".csv", table);
-  check(cv::imwrite(path + ".png", draw(plot)), "picture " + path + ".png cannot be written");
+  writePicture(path + ".png", draw(plot));
 }
 
 }  // namespace

@@ -2,10 +2,9 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 
-#include "depth_fusion/common/error.h"
 #include "depth_fusion/evaluation/line_plot.h"
+#include "recording/image_file.h"
 #include "recording/text_file.h"
 
 namespace depth_fusion {
@@ -74,7 +73,7 @@ void writePlot(const std::string& path, const std::string& title, const std::vec
     integration.points.emplace_back(voxels, outcome.times.integration_ms);
   }
   plot.lines = {model_view, icp, integration, selection};
-  check(cv::imwrite(path, draw(plot)), "picture " + path + " cannot be written");
+  writePicture(path, draw(plot));
 }
 
 void run(const ResolutionOptions& options) {

@@ -3,10 +3,9 @@
 #include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "depth_fusion/calibration/calibration_picture.h"
-#include "depth_fusion/common/error.h"
+#include "recording/image_file.h"
 #include "recording/text_file.h"
 
 namespace depth_fusion {
@@ -115,8 +114,7 @@ void writeCalibration(const std::string& folder, const CalibrationReport& report
     yaml += line("preprocessing", name);
   writeText(folder + "/calibration.yaml", yaml);
   writeText(folder + "/report.json", toJson(report).dump(2) + "\n");
-  const std::string picture = folder + "/calibration.png";
-  check(cv::imwrite(picture, drawCalibration(report.depth)), picture + ": cannot be written");
+  writePicture(folder + "/calibration.png", drawCalibration(report.depth));
 }
 
 }  // namespace depth_fusion
