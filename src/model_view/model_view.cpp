@@ -11,7 +11,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr size_t kPictureBytes = 4;        // a pixel
+constexpr size_t kPictureBytes = 4;  // a pixel
 
 size_t pixelsOf(const CameraIntrinsics& camera) { return static_cast<size_t>(camera.width) * camera.height; }
 
@@ -31,24 +31,30 @@ std::shared_ptr<ModelView> makeView(ComputeContext& compute, const CameraIntrins
 }  // namespace
 
 ParameterTable ModelViewParameters::table() {
-  return atStartOnly({{"renderer",
-                       &renderer,
-                       0.0,
-                       0.0,
-                       "how the map is rendered: rays cast through it, or its triangles rasterised",
-                       {"ray_casting", "marching_cubes"}}});
+  return atStartOnly(
+      {{"renderer",
+        &renderer,
+        0.0,
+        0.0,
+        "how the map is rendered: rays cast through it, or its triangles rasterised",
+        {"ray_casting", "marching_cubes"}},
+       {"half_size", &half_size, 0, 1,
+        "true: views, and pictures of them, have half the depth image's width and height, for a machine "
+        "that is short of time; what is narrower than four pixels of it may be missing from them"}});
 }
 
 ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map,
                                      const CameraIntrinsics& camera, ModelViewParameters parameters)
     : compute_(compute),
       map_(map),
-      views_([&compute, camera] { return makeView(compute, camera); }),
-      nearest_(compute, rangeTiles(camera) * sizeof(float), "ray ranges"),
-      occupied_(compute, rangeTiles(camera) * (DEPTH_BINS / 8), "ray ranges"),
+      camera_(parameters.half_size ? halved(camera) : camera),
+      views_([this] { return makeView(compute_, camera_); }),
+      nearest_(compute, rangeTiles(camera_) * sizeof(float), "ray ranges"),
+      occupied_(compute, rangeTiles(camera_) * (DEPTH_BINS / 8), "ray ranges"),
       kernels_(std::make_unique<Kernels>(compute, map)) {
   validate(parameters.table());
-  if (parameters.renderer == "marching_cubes") mesh_renderer_ = std::make_unique<MeshRenderer>(compute, map, camera);
+  if (parameters.renderer == "marching_cubes")
+    mesh_renderer_ = std::make_unique<MeshRenderer>(compute, map, camera_);
 }
 
 ModelViewRenderer::~ModelViewRenderer() = default;

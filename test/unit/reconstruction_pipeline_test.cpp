@@ -67,8 +67,8 @@ bool sameBytes(const TriangleMesh& a, const TriangleMesh& b) {
          std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(MeshVertex)) == 0;
 }
 
-TEST(ReconstructionPipeline, TracksAndFusesTheRoom) {
-  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+void expectRoomTracked(const PipelineParameters& parameters) {
+  ReconstructionPipeline pipeline(compute(), parameters, kCamera);
   for (int i = 0; i < kFrames; ++i) {
     const FrameResult result = pipeline.processFrame(roomFrames()[i]);
     ASSERT_TRUE(isTracking(result)) << i << " " << result.tracking.reason;
@@ -78,6 +78,14 @@ TEST(ReconstructionPipeline, TracksAndFusesTheRoom) {
     EXPECT_LT(rotationAngle(error), 0.01) << i;
   }
   EXPECT_GT(meshOf(pipeline).triangles.size(), 5000u);
+}
+
+TEST(ReconstructionPipeline, TracksAndFusesTheRoom) { expectRoomTracked(pipelineParameters()); }
+
+TEST(ReconstructionPipeline, TracksAgainstViewsOfHalfTheSize) {
+  PipelineParameters parameters = pipelineParameters();
+  parameters.model_view.half_size = true;
+  expectRoomTracked(parameters);
 }
 
 TEST(ReconstructionPipeline, StartsWithTheFirstFrameThatHasDepth) {

@@ -23,6 +23,7 @@ struct ModelView {
 
 struct ModelViewParameters {
   std::string renderer = "ray_casting";
+  bool half_size = false;
 
   ParameterTable table();
 };
@@ -33,6 +34,7 @@ class ModelViewRenderer {
  public:
   class Kernels;  // typed launches, private to the library and its tests
 
+  // Views are as large as the camera's images, or half as large in each axis if the parameters say so.
   ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera,
                     ModelViewParameters parameters = {});
   ~ModelViewRenderer();
@@ -53,6 +55,7 @@ class ModelViewRenderer {
 
   ComputeContext& compute_;
   BlockSparseMap& map_;
+  CameraIntrinsics camera_;  // of the views
   ResultPool<ModelView> views_;
   DeviceBuffer nearest_, occupied_;  // ranges of the rays
   DeviceBuffer picture_;  // allocated for the first one

@@ -142,6 +142,7 @@ void TsdfFusionNodelet::loadAll() {
                          {"registration", rgbd_.registration.table()},
                          {"depth_sensor", parameters_.depth_sensor.table()},
                          {"preprocessing", parameters_.preprocessing.table()},
+                         {"model_view", parameters_.model_view.table()},
                          {"color_fusion", parameters_.color_fusion.table()}});
 }
 
