@@ -45,7 +45,7 @@ typedef uchar vuchar;
 #define GATHER(type, pointer, i) ((pointer)[i])
 #define GATHER_BYTES(pointer, i) ((int)(pointer)[i])
 #define GATHER_FOUR_BYTES(pointer, i) as_int(vload4(0, (pointer) + (i)))
-#define WORDS_AT(p, i) (p[i[0]])
+inline uint gather_from_memory(__global const uint *words, const int *index) { return words[*index]; }
 #define SUM_LANES(v) (v)
 #define LEAST(v) (v)
 #define FIRST_LANE(v) (v)
@@ -87,7 +87,7 @@ inline float least_lane(float8 v) {
   const float2 b = min(a.lo, a.hi);
   return min(b.x, b.y);
 }
-#else
+#elif SIMD_WIDTH == 16
 #define LANE_INDICES ((vint)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 #define EACH_LANE(type, of, p, i)                                                                                  \
   ((type)(of(p, (i).s0), of(p, (i).s1), of(p, (i).s2), of(p, (i).s3), of(p, (i).s4), of(p, (i).s5), of(p, (i).s6), \
@@ -124,6 +124,10 @@ typedef struct __attribute__((packed)) {
 } UnalignedInt;
 #define FOUR_BYTES(pointer, i) (((__global const UnalignedInt *)((pointer) + (i)))->word)
 #define GATHER_FOUR_BYTES(pointer, i) EACH_LANE(vint, FOUR_BYTES, pointer, i)
+// Words at indices that stand in memory. Volatile, else PoCL takes the CPU's gather instruction, which is slower.
+inline vuint gather_from_memory(__global const volatile uint *words, const int *indices) {
+  return WORDS_AT(words, indices);
+}
 #define SUM_LANES(v) sum_lanes(v)
 #define LEAST(v) least_lane(v)
 #define FIRST_LANE(v) ((v).s0)
@@ -131,6 +135,3 @@ typedef struct __attribute__((packed)) {
 #define EVEN_LANES(a, b) ((vfloat)((a).even, (b).even))
 #define ODD_LANES(a, b) ((vfloat)((a).odd, (b).odd))
 #endif
-
-// The words at indices that stand in memory. Volatile, else PoCL takes the CPU's gather instruction, which is slower.
-inline vuint gather_from_memory(__global const volatile uint *words, const int *indices) { return WORDS_AT(words, indices); }

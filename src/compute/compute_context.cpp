@@ -111,6 +111,8 @@ std::vector<DeviceInfo> ComputeContext::listDevices() {
 
 ComputeContext::ComputeContext(const std::string& choice, int simd_width, int group_size)
     : impl_(std::make_unique<Impl>()) {
+  check(simd_width == 0 || simd_width == 1 || simd_width == 8 || simd_width == 16,
+        "the kernels are written for vectors of 1, 8 and 16, not of " + std::to_string(simd_width));
   const char* environment = std::getenv("DEPTH_FUSION_DEVICE");
   const std::string wanted = choice.empty() && environment != nullptr ? environment : choice;
   const std::vector<cl::Device> devices = allDevices();

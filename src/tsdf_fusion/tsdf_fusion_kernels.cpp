@@ -9,6 +9,8 @@
 namespace depth_fusion {
 namespace {
 
+static_assert(SLOTS_PER_GROUP % SLOTS_PER_ITEM(16) == 0, "a work-item's slots are of one group");
+
 constexpr char kSelection[] = "tsdf_fusion/select_blocks.cl";
 
 // In the order of the FUSION_ and DISTANCE_ constants of types.h.

@@ -9,23 +9,35 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-constexpr double kFrame_s = 0.1;  // between frames
+constexpr double kFrame_s = 0.3;  // between frames
 
 class DiagnosticsOf : public LiveGraph {
  protected:
   DiagnosticsOf() : diagnostics_(graph_.handle()), frame_(simulatedFrames(smallRoom(1)).front()) {}
 
   // Sends the same view again and again until the nodelet says so.
-  DiagnosticStatus sendUntil(const std::string& nodelet, int level, const std::string& words) {
+  DiagnosticStatus sendUntil(const std::string& nodelet,
+                             const std::function<bool(const DiagnosticStatus&)>& fits) {
     DiagnosticStatus found;
     found.level = -1;
-    for (double waited_s = 0.0; waited_s < kPatience_s && found.level != level; waited_s += kFrame_s) {
+    for (double waited_s = 0.0; waited_s < kPatience_s && found.level < 0; waited_s += kFrame_s) {
       frame_.stamp_s += kFrame_s;
       camera_.publish(frame_);
-      found = diagnostics_.await(nodelet, level, words, kFrame_s);
+      found = diagnostics_.await(nodelet, fits, kFrame_s);
     }
-    EXPECT_EQ(found.level, level) << nodelet << " never said \"" << words << "\"";
+    EXPECT_GE(found.level, 0) << nodelet << " never said so";
     return found;
+  }
+  DiagnosticStatus sendUntil(const std::string& nodelet, int level, const std::string& words) {
+    return sendUntil(nodelet, [&](const DiagnosticStatus& status) {
+      return status.level == level && status.message.find(words) != std::string::npos;
+    });
+  }
+  DiagnosticStatus sendUntilRunning(const std::string& nodelet) {
+    return sendUntil(nodelet, [](const DiagnosticStatus& status) {
+      return status.level == DiagnosticStatus::OK && status.message == "running" &&
+             std::stod(valueOf(status, "frames a second")) > 0.0 && valueOf(status, "inliers") != "0";
+    });
   }
 
   Diagnostics diagnostics_;
@@ -43,13 +55,12 @@ TEST_F(DiagnosticsOf, ASensorThatIsNotThere) {
 
 TEST_F(DiagnosticsOf, ASensorThatRunsAndStops) {
   loadTracking();
-  const DiagnosticStatus odometry = sendUntil("texture_odometry", DiagnosticStatus::OK, "running");
-  const DiagnosticStatus tracking = sendUntil("icp_tracking", DiagnosticStatus::OK, "running");
-  const DiagnosticStatus fusion = sendUntil("tsdf_fusion", DiagnosticStatus::OK, "running");
+  const DiagnosticStatus odometry = sendUntilRunning("texture_odometry");
+  const DiagnosticStatus tracking = sendUntilRunning("icp_tracking");
+  const DiagnosticStatus fusion = sendUntilRunning("tsdf_fusion");
   for (const DiagnosticStatus& status : {odometry, tracking, fusion}) {
     for (const char* key : {"frames a second", "frames received", "frames processed", "queue"})
       EXPECT_NE(valueOf(status, key), "") << status.name << " " << key;
-    EXPECT_GT(std::stod(valueOf(status, "frames a second")), 0.0) << status.name;
   }
   EXPECT_EQ(valueOf(tracking, "state"), "tracking");
   EXPECT_GT(std::stoi(valueOf(tracking, "inliers")), 1000);
@@ -65,7 +76,7 @@ TEST_F(DiagnosticsOf, ASensorThatRunsAndStops) {
 
 TEST_F(DiagnosticsOf, ASensorThatIsLost) {
   loadTracking();
-  sendUntil("icp_tracking", DiagnosticStatus::OK, "running");
+  sendUntilRunning("icp_tracking");
   frame_.depth.setTo(0);
   const DiagnosticStatus lost = sendUntil("icp_tracking", DiagnosticStatus::ERROR, "lost: ");
   EXPECT_NE(lost.message.find("; move the sensor back to where it has been"), std::string::npos);
@@ -73,6 +84,14 @@ TEST_F(DiagnosticsOf, ASensorThatIsLost) {
   EXPECT_GT(std::stoi(valueOf(lost, "dropped: lost")), 0);
   setMode(SetMode::Request::PAUSED);
   EXPECT_EQ(valueOf(sendUntil("icp_tracking", DiagnosticStatus::WARN, "paused"), "state"), "paused");
+}
+
+TEST_F(DiagnosticsOf, ATrackerWithoutAMap) {
+  ASSERT_TRUE(graph_.load("icp_tracking"));
+  ASSERT_TRUE(graph_.load("texture_odometry"));
+  const DiagnosticStatus alone =
+      sendUntil("icp_tracking", DiagnosticStatus::ERROR, "no map to track against");
+  EXPECT_EQ(alone.message.find("move the sensor"), std::string::npos);
 }
 
 TEST_F(DiagnosticsOf, APoolThatIsFull) {
@@ -85,11 +104,11 @@ TEST_F(DiagnosticsOf, APoolThatIsFull) {
 
 TEST_F(DiagnosticsOf, AMachineThatIsTooSlow) {
   loadTracking();
-  sendUntil("icp_tracking", DiagnosticStatus::OK, "running");
+  sendUntilRunning("icp_tracking");
   const std::shared_ptr<SharedMap> map = findMap(graph_.resolve("tsdf_fusion"));
   const std::lock_guard<std::mutex> busy(map->mutex);  // fusion has to wait for it, and tracking for fusion
   const DiagnosticStatus slow = sendUntil("icp_tracking", DiagnosticStatus::WARN, "too slow: ");
-  EXPECT_NE(slow.message.find("raise map/voxel_size_m"), std::string::npos);
+  EXPECT_NE(slow.message.find("larger map/voxel_size_m"), std::string::npos);
   EXPECT_GT(std::stoi(valueOf(slow, "dropped: too slow")), 0);
 }
 

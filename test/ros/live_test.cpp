@@ -59,6 +59,8 @@ TEST_F(Live, ModesStopMappingAndTracking) {
   EXPECT_EQ(track(frames[6])->state, TrackerStatus::TRACKING);
 
   setMode(SetMode::Request::PAUSED);
+  EXPECT_NE(map_status_.await([](const MapStatus& status) { return status.mode == MapStatus::PAUSED; }),
+            nullptr);
   EXPECT_EQ(track(frames[7])->state, TrackerStatus::PAUSED);
   setMode(SetMode::Request::MAPPING);
   const auto again = fuse(frames[8]);

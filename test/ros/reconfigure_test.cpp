@@ -77,12 +77,12 @@ class Reconfigure : public testing::Test {
                [&](const rosgraph_msgs::Log& log) {
                  return log.level == rosgraph_msgs::Log::WARN && log.msg.find(part) != std::string::npos;
                },
-               5.0) != nullptr;
+               kPatience_s) != nullptr;
   }
 
   ConfigDescription describe(const std::string& nodelet) {
     const Listener<ConfigDescription> descriptions(graph_.handle(), nodelet + "/parameter_descriptions");
-    const auto description = descriptions.await([](const ConfigDescription&) { return true; }, 5.0);
+    const auto description = descriptions.await([](const ConfigDescription&) { return true; }, kPatience_s);
     EXPECT_NE(description, nullptr);
     return description == nullptr ? ConfigDescription() : *description;
   }
@@ -136,11 +136,11 @@ TEST_F(Reconfigure, ChangesWhileFramesFlowAreTakenAndNoFrameIsLost) {
 TEST_F(Reconfigure, ChangeIsPublishedAndOnTheParameterServer) {
   ASSERT_TRUE(graph_.load("icp_tracking"));
   const Listener<Config> updates(graph_.handle(), "icp_tracking/parameter_updates");
-  ASSERT_TRUE(updates.awaitCount(1, 5.0));
+  ASSERT_TRUE(updates.awaitCount(1));
   EXPECT_FLOAT_EQ(onServer("icp_tracking/max_rmse_m"), 0.02);
   EXPECT_EQ(doubleOf(set("icp_tracking", real("max_rmse_m", 0.1)), "max_rmse_m"), 0.1);
   EXPECT_EQ(onServer("icp_tracking/max_rmse_m"), 0.1);
-  EXPECT_TRUE(updates.await([](const Config& config) { return doubleOf(config, "max_rmse_m") == 0.1; }, 5.0));
+  EXPECT_TRUE(updates.await([](const Config& config) { return doubleOf(config, "max_rmse_m") == 0.1; }));
 }
 
 TEST_F(Reconfigure, ValueOutOfRangeIsRefusedAndTheOthersTaken) {
@@ -185,7 +185,7 @@ TEST_F(Reconfigure, NodeletsOfAStageInCommonFollow) {
   const Listener<Config> updates(graph_.handle(), "tsdf_fusion/parameter_updates");
   set("icp_tracking", real("preprocessing/max_range_m", 2.5));
   EXPECT_TRUE(updates.await(
-      [](const Config& config) { return doubleOf(config, "preprocessing/max_range_m") == 2.5; }, 5.0));
+      [](const Config& config) { return doubleOf(config, "preprocessing/max_range_m") == 2.5; }));
   EXPECT_EQ(doubleOf(set("tsdf_fusion", Config()), "preprocessing/max_range_m"), 2.5);
   EXPECT_EQ(onServer("preprocessing/max_range_m"), 2.5);
 }

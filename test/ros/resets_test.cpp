@@ -52,7 +52,7 @@ TEST_F(Resets, EmptyMapAndTracker) {
   const uint32_t before = map_status_.all().back()->generation;
   resetVolume();
   EXPECT_EQ(findMap(graph_.resolve("tsdf_fusion"))->map.usage().blocks, 0u);
-  ros::WallDuration(0.5).sleep();  // until the tracker has heard of it: what comes sooner is from before
+  ros::WallDuration(2.0).sleep();  // until the tracker has heard of it: what comes sooner is from before
 
   fuseAll({frames.begin() + 6, frames.end()});
   const MapStatus after = *map_status_.all().back();

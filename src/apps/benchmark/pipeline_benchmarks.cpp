@@ -2,6 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <utility>
+
 #include "depth_fusion/common/percentile.h"
 
 namespace depth_fusion {
@@ -14,11 +16,13 @@ void runPipeline(State& state, ComputeContext& compute, const TrackingInput& inp
     const std::unique_ptr<Recording> recording = input.open();
     std::unique_ptr<ReconstructionPipeline> pipeline;
     int lost = 0;
-    while (const std::optional<RgbdFrame> frame = recording->next()) {
+    for (std::optional<RgbdFrame> frame = recording->next(), next; frame; frame = std::move(next)) {
+      next = recording->next();
       if (!pipeline) {
         pipeline = std::make_unique<ReconstructionPipeline>(compute, input.parameters, frame->intrinsics);
       }
-      if (pipeline->processFrame(*frame).tracking.status == TrackingStatus::kLost) ++lost;
+      const FrameResult result = pipeline->processFrame(*frame, next ? &*next : nullptr);
+      if (result.tracking.status == TrackingStatus::kLost) ++lost;
     }
     for (const auto& [stage, samples] : pipeline->timers().samplesMs()) {
       state.counters["ms:" + stage] = percentile(samples, 0.5);
@@ -34,7 +38,7 @@ void runPipeline(State& state, ComputeContext& compute, const TrackingInput& inp
 }  // namespace
 
 void registerPipelineBenchmark(ComputeContext& compute, const TrackingInput& input) {
-  benchmark::RegisterBenchmark(("pipeline/" + input.name).c_str(),
+  benchmark::RegisterBenchmark(("pipeline_overlapped/" + input.name).c_str(),
                                [&compute, input](State& state) { runPipeline(state, compute, input); })
       ->UseManualTime()
       ->Iterations(1)

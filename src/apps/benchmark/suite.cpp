@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <utility>
 
 #include "apps/benchmark/limit_benchmarks.h"
 #include "apps/benchmark/pipeline_benchmarks.h"

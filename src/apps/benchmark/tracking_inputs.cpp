@@ -34,6 +34,7 @@ TrackingInput recorded(const std::string& name, const std::string& folder, const
   RecordingOptions options;
   if (!camera.empty()) readCamera(camera, options);
   loadParameterFile(input.parameters.table(), params);
+  input.parameters.model_view.half_size = false;  // to compare with other inputs, and with benchmarks of before
   input.open = [folder, options, compute = std::make_shared<ComputeContext>(),
                 parameters = input.parameters.registration] {
     return registered(openFolder(folder, options), *compute, parameters);

@@ -13,6 +13,8 @@
 
 namespace depth_fusion {
 
+constexpr char kLost[] = "lost", kPaused[] = "paused";
+
 class IcpTrackingNodelet : public StageNodelet {
  public:
   ~IcpTrackingNodelet() override;
@@ -34,7 +36,9 @@ class IcpTrackingNodelet : public StageNodelet {
   // Why a frame is not to be tracked at all, or nothing.
   std::string refusal(const SensorFrame& frame) const;
   TrackingResult track(const TexturedFramePtr& frame, StageTimers& timers);
-  void publish(const TexturedFrame& frame, const TrackingResult& result, StageTimers& timers);
+  // `lost_for`: what a lost frame is counted as.
+  void publish(const TexturedFrame& frame, const TrackingResult& result, const std::string& lost_for,
+               StageTimers& timers);
   void forgetMap();
   // Of the last fused frame; null if there is nothing to be seen yet.
   const ModelView* view() const { return map_ == nullptr ? nullptr : map_->view.get(); }
@@ -62,6 +66,7 @@ class IcpTrackingNodelet : public StageNodelet {
 
   std::mutex status_mutex_;
   TrackerStatus status_;
+  bool is_in_map_ = true;  // unless nothing fits
   std::string device_name_;
 
   ros::Publisher status_publisher_;
@@ -155,6 +160,7 @@ void IcpTrackingNodelet::process(const TexturedFramePtr& waiting) {
   StageTimers timers;
   TexturedFramePtr frame = waiting;
   TrackingResult result;
+  std::string lost_for = kLost;
   try {
     if (tracker_ == nullptr) prepare(*frame);
     for (const FusionNews& news : fusion_->await()) apply(news);
@@ -165,22 +171,24 @@ void IcpTrackingNodelet::process(const TexturedFramePtr& waiting) {
     if (result.reason.empty()) {
       result = track(frame, timers);
     } else {
+      lost_for = result.reason;
       tracker_->reject();
     }
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << error.what());
     result = TrackingResult();
     result.reason = error.what();
+    lost_for = "error";
     if (tracker_ != nullptr) tracker_->reject();
   }
-  publish(*frame, result, timers);
+  publish(*frame, result, lost_for, timers);
   if (result.status != TrackingStatus::kLost) fusion_->send(frame, tracker_->depth(), result);
   recordTimings(timers);
 }
 
 std::string IcpTrackingNodelet::refusal(const SensorFrame& frame) const {
   if (!fusion_->connected()) return "no map to track against; load tsdf_fusion in the same nodelet manager";
-  if (fusion_->mode() == MapMode::kPaused) return "paused";
+  if (fusion_->mode() == MapMode::kPaused) return kPaused;
   return fusion_->isBeforeReset(frame) ? kBeforeReset : "";
 }
 
@@ -252,13 +260,12 @@ TrackingResult IcpTrackingNodelet::track(const TexturedFramePtr& frame, StageTim
 }
 
 void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResult& result,
-                                 StageTimers& timers) {
+                                 const std::string& lost_for, StageTimers& timers) {
   const std_msgs::Header& header = frame.sensor->header;
   TrackerStatus status = makeTrackerStatus(header, result);
   if (result.status == TrackingStatus::kLost) {
-    const bool paused = fusion_->mode() == MapMode::kPaused;
-    if (paused) status.state = TrackerStatus::PAUSED;
-    counter_.drop(paused ? "paused" : result.reason == kBeforeReset ? kBeforeReset : "lost");
+    if (lost_for == kPaused) status.state = TrackerStatus::PAUSED;
+    counter_.drop(lost_for);
     pose_publisher_->publishLost(header);
   } else {
     counter_.process();
@@ -275,6 +282,7 @@ void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResul
   status_publisher_.publish(boost::make_shared<TrackerStatus>(status));
   const std::lock_guard<std::mutex> lock(status_mutex_);
   status_ = status;
+  is_in_map_ = result.status != TrackingStatus::kLost || lost_for != kLost;
 }
 
 const ModelView& IcpTrackingNodelet::render(const Pose& T_W_D) {
@@ -291,7 +299,8 @@ const ModelView& IcpTrackingNodelet::render(const Pose& T_W_D) {
 void IcpTrackingNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::string problem = sensor_subscriber_ ? sensor_subscriber_->problem() : "";
   const std::lock_guard<std::mutex> lock(status_mutex_);
-  depth_fusion::diagnose(status_, problem, status);
+  depth_fusion::diagnose(status_, problem, is_in_map_ ? "" : "; move the sensor back to where it has been",
+                         status);
   status.add("queue", worker_->waiting());
   status.add("device", device_name_);
 }

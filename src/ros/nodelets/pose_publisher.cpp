@@ -38,7 +38,11 @@ PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_han
                              const PoseParameters& parameters)
     : parameters_(parameters), tree_(handle, parameters.map_frame) {
   pose_publisher_ = private_handle.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
-  path_publisher_ = private_handle.advertise<nav_msgs::Path>("path", 1);
+  path_publisher_ = private_handle.advertise<nav_msgs::Path>(
+      "path", 1, [this](const ros::SingleSubscriberPublisher& viewer) {
+        const std::lock_guard<std::mutex> lock(path_mutex_);
+        if (!path_.poses.empty()) viewer.publish(path_);
+      });
 }
 
 Pose PosePublisher::startPose(const std_msgs::Header& camera) {
@@ -101,7 +105,10 @@ void PosePublisher::send(const ros::Time& stamp) {
 
 void PosePublisher::reset() {
   T_map_root_.reset();
+  const std::lock_guard<std::mutex> lock(path_mutex_);
+  if (path_.poses.empty()) return;
   path_.poses.clear();
+  publishPath();
 }
 
 void PosePublisher::addToPath(const std_msgs::Header& header, const Pose& T_map_camera) {
@@ -109,6 +116,7 @@ void PosePublisher::addToPath(const std_msgs::Header& header, const Pose& T_map_
   if (!path_.poses.empty() && step.translation().norm() < kPathStep_m && rotationAngle(step) < kPathStep_rad)
     return;
   T_map_last_ = T_map_camera;
+  const std::lock_guard<std::mutex> lock(path_mutex_);
   path_.header = header;
   path_.poses.emplace_back();
   path_.poses.back().header = header;
@@ -117,6 +125,10 @@ void PosePublisher::addToPath(const std_msgs::Header& header, const Pose& T_map_
     for (size_t i = 0; i < kMaxPath / 2; ++i) path_.poses[i] = path_.poses[2 * i];
     path_.poses.erase(path_.poses.begin() + kMaxPath / 2, path_.poses.begin() + kMaxPath);
   }
+  publishPath();
+}
+
+void PosePublisher::publishPath() {
   if (path_publisher_.getNumSubscribers() > 0)
     path_publisher_.publish(boost::make_shared<nav_msgs::Path>(path_));
 }

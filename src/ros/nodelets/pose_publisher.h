@@ -6,6 +6,7 @@
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -48,15 +49,17 @@ class PosePublisher {
   void takeRoot(const CameraTree::Root& root);
   void send(const ros::Time& stamp);
   void addToPath(const std_msgs::Header& header, const Pose& T_map_camera);
+  void publishPath();
 
   PoseParameters parameters_;
   CameraTree tree_;
   tf2_ros::TransformBroadcaster broadcaster_;
-  ros::Publisher pose_publisher_, path_publisher_;
   CameraTree::Root root_;  // empty until the first frame
   std::optional<Pose> T_map_root_;
+  std::mutex path_mutex_;  // of the path, which late viewers get whole
   nav_msgs::Path path_;
-  Pose T_map_last_ = Pose::Identity();  // of the path
+  Pose T_map_last_ = Pose::Identity();              // of the path
+  ros::Publisher pose_publisher_, path_publisher_;  // last: the path's viewers are served from the others
 };
 
 }  // namespace depth_fusion

@@ -122,7 +122,6 @@ void RecordingPlayer::playOnce() {
     try {
       const StageTimers::Scope timer(timers, "recording/read");
       frame = recording_->next();
-      if (frame) frame = registration_.process(*frame);
     } catch (const Error& error) {
       host_.counter.receive();
       host_.counter.drop("unreadable");
@@ -130,6 +129,7 @@ void RecordingPlayer::playOnce() {
       continue;
     }
     if (!frame) return;
+    frame = registration_.process(*frame);
     host_.counter.receive();
     if (!parameters_.lossless) awaitTime(frame->stamp_s);
     ros::Time stamp;
@@ -180,6 +180,7 @@ void RecordingPlayer::awaitMap(const ros::Time& stamp) {
 }
 
 void RecordingPlayer::noteDone(const ros::Time& stamp) {
+  if (stamp.isZero()) return;  // of no frame
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     done_ = stamp;

@@ -118,7 +118,7 @@ void RgbdSubscriber::setParameters(const RgbdParameters& parameters) {
 std::string RgbdSubscriber::problem() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const double silent_s = (ros::WallTime::now() - last_depth_).toSec();
-  if (!problem_.empty() || silent_s < kSilence_s) return problem_;
+  if (last_depth_.isZero() || silent_s < kSilence_s) return problem_;
   return "no depth image on " + depth_topic_ + " for " + std::to_string(static_cast<int>(silent_s)) +
          " s; is the sensor running?";
 }

@@ -11,6 +11,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kReportPeriod_s = 1.0;
+constexpr int kSilentReports = 3;       // without a frame, before that is a problem
 constexpr uint64_t kFewestTooSlow = 5;  // one frame of so many may be skipped without a warning
 
 uint64_t droppedFor(const FrameAccount& account, const std::string& reason) {
@@ -108,16 +109,17 @@ void StageNodelet::publishTimings() {
 }
 
 void StageNodelet::warnOfMissingFrames(const FrameAccount& account,
-                                       diagnostic_updater::DiagnosticStatusWrapper& status) const {
+                                       diagnostic_updater::DiagnosticStatusWrapper& status) {
   const uint64_t received = account.received - last_account_.received;
   const uint64_t too_slow = droppedFor(account, kTooSlow) - droppedFor(last_account_, kTooSlow);
-  if (received == 0 && !frame_source_.empty()) {
-    status.summary(DiagnosticStatus::WARN, "no frames from " + frame_source_ + "; see what that says");
+  silent_reports_ = received == 0 ? silent_reports_ + 1 : 0;
+  if (silent_reports_ >= kSilentReports && !frame_source_.empty()) {
+    status.mergeSummary(DiagnosticStatus::WARN, "no frames from " + frame_source_ + "; see what that says");
   } else if (too_slow * kFewestTooSlow > received) {
-    status.summaryf(
-        DiagnosticStatus::WARN,
-        "too slow: %lu of %lu frames skipped; raise map/voxel_size_m, or let the sensor send fewer", too_slow,
-        received);
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "too slow: " + std::to_string(too_slow) + " of " + std::to_string(received) +
+                            " frames skipped; start with a larger map/voxel_size_m or with "
+                            "model_view/half_size, or let the sensor send fewer");
   }
 }
 
@@ -125,7 +127,7 @@ void StageNodelet::diagnoseFrames(diagnostic_updater::DiagnosticStatusWrapper& s
   const FrameAccount account = counter_.account();
   status.summary(DiagnosticStatus::OK, "running");
   diagnose(status);
-  if (status.level == DiagnosticStatus::OK) warnOfMissingFrames(account, status);
+  warnOfMissingFrames(account, status);
   status.add("frames a second",
              static_cast<double>(account.processed - last_account_.processed) / kReportPeriod_s);
   last_account_ = account;

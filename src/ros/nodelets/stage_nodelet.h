@@ -70,8 +70,7 @@ class StageNodelet : public nodelet::Nodelet {
   void report();
   void diagnoseFrames(diagnostic_updater::DiagnosticStatusWrapper& status);
   // Since the last report: none came, or many were skipped.
-  void warnOfMissingFrames(const FrameAccount& account,
-                           diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void warnOfMissingFrames(const FrameAccount& account, diagnostic_updater::DiagnosticStatusWrapper& status);
   void publishTimings();
 
   std::vector<ParameterGroup> parameter_groups_;
@@ -86,6 +85,7 @@ class StageNodelet : public nodelet::Nodelet {
   ros::WallTimer report_timer_;
   std::string frame_source_;  // the nodelet that frames come from; empty: from topics
   FrameAccount last_account_;
+  int silent_reports_ = 0;
 };
 
 template <class Payload>

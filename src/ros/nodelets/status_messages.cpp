@@ -40,17 +40,16 @@ void setUsage(MapStatus& status, const BlockSparseMap::Usage& usage) {
   status.pool_bytes = usage.pool_bytes;
 }
 
-void diagnose(const TrackerStatus& tracker, const std::string& problem,
+void diagnose(const TrackerStatus& tracker, const std::string& problem, const std::string& advice,
               diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (!problem.empty()) {
     status.summary(DiagnosticStatus::WARN, problem);
   } else if (tracker.state == TrackerStatus::LOST && !tracker.reason.empty()) {
-    status.summary(DiagnosticStatus::ERROR,
-                   "lost: " + tracker.reason + "; move the sensor back to where it has been");
+    status.summary(DiagnosticStatus::ERROR, "lost: " + tracker.reason + advice);
   } else if (!tracker.reason.empty()) {
     status.summary(DiagnosticStatus::WARN, tracker.reason);
   }
-  status.add("state", stateName(tracker.state));
+  status.add("state", tracker.frames.received == 0 ? "no frame yet" : stateName(tracker.state));
   status.add("inliers", tracker.inliers);
   status.add("rmse_m", tracker.rmse_m);
   status.add("keyframes", tracker.keyframes);

@@ -14,7 +14,8 @@ TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingRe
 void setUsage(MapStatus& status, const BlockSparseMap::Usage& usage);
 
 // Level, summary and values. `problem` hinders frames before they get that far; empty if nothing does.
-void diagnose(const TrackerStatus& tracker, const std::string& problem,
+// `advice`: what to do if the frame is lost.
+void diagnose(const TrackerStatus& tracker, const std::string& problem, const std::string& advice,
               diagnostic_updater::DiagnosticStatusWrapper& status);
 void diagnose(const MapStatus& map, const std::string& problem,
               diagnostic_updater::DiagnosticStatusWrapper& status);

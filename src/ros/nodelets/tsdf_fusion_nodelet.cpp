@@ -46,6 +46,8 @@ class TsdfFusionNodelet : public StageNodelet {
   void render(const TrackedFrame& frame, StageTimers& timers);
   void answer(const std_msgs::Header& header, const Outcome& outcome);
   void publishStatus(const std_msgs::Header& header, const Outcome& outcome);
+  // To tracker and users, what no frame brought about: without a stamp.
+  void announce(const std::string& news);
 
   void resetMap();  // with the mutex
   bool serveReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -247,6 +249,11 @@ void TsdfFusionNodelet::answer(const std_msgs::Header& header, const Outcome& ou
                   MapView{view_, outcome.accepted, outcome.reason, map_->generation, mode_, reset_, map_})));
 }
 
+void TsdfFusionNodelet::announce(const std::string& news) {
+  answer(std_msgs::Header(), {false, false, news});
+  publishStatus(std_msgs::Header(), {});
+}
+
 void TsdfFusionNodelet::publishStatus(const std_msgs::Header& header, const Outcome& outcome) {
   auto status = boost::make_shared<MapStatus>();
   status->header = header;
@@ -272,7 +279,7 @@ bool TsdfFusionNodelet::serveReset(std_srvs::Trigger::Request&, std_srvs::Trigge
   const std::lock_guard<std::mutex> lock(map_->mutex);
   resetMap();
   reset_ = reset;
-  answer(std_msgs::Header(), {false, false, "the map is empty"});
+  announce("the map is empty");
   response.success = true;
   response.message = "the map is empty; it begins anew with the next frame";
   return true;
@@ -284,7 +291,7 @@ bool TsdfFusionNodelet::serveMode(SetMode::Request& request, SetMode::Response& 
   if (!response.success) return true;
   const std::lock_guard<std::mutex> lock(map_->mutex);
   mode_ = static_cast<MapMode>(request.mode);
-  answer(std_msgs::Header(), {false, false, "another mode"});
+  announce("another mode");
   return true;
 }
 
