@@ -1,5 +1,9 @@
 // The graph of nodelets as a robot uses it: zero copies, modes, a full pool, unloading and reloading.
+#include <atomic>
+#include <thread>
+
 #include "ros/nodelets/frames.h"
+#include "ros/nodelets/shared_map.h"
 #include "support/live_graph.h"
 
 namespace depth_fusion {
@@ -100,6 +104,35 @@ TEST_F(Live, UnloadsAndReloadsEveryNodelet) {
     }
     EXPECT_GE(fused, 4u) << nodelet;
   }
+}
+
+TEST_F(Live, UnloadsAndReloadsWhileFramesStream) {
+  loadTracking();
+  RgbdFrame frame = simulatedFrames(smallRoom(1)).front();
+  std::atomic<bool> streaming{true};
+  std::thread sensor([&] {
+    for (; streaming; ros::WallDuration(0.05).sleep()) {
+      frame.stamp_s += 0.05;
+      camera_.publish(frame);
+    }
+  });
+  const auto fusesFromNowOn = [&] {
+    const size_t before = map_status_.count();
+    size_t seen = 0;
+    return map_status_.await([&](const MapStatus& status) { return ++seen > before && status.fused; }) !=
+           nullptr;
+  };
+  EXPECT_TRUE(fusesFromNowOn());
+  for (const std::string nodelet : {"tsdf_fusion", "icp_tracking", "texture_odometry", "tsdf_fusion"}) {
+    const std::weak_ptr<SharedMap> map = findMap(graph_.resolve("tsdf_fusion"));
+    EXPECT_TRUE(graph_.unload(nodelet));
+    if (nodelet == "tsdf_fusion")
+      EXPECT_TRUE(eventually([&] { return map.expired(); })) << "the map has leaked";
+    EXPECT_TRUE(graph_.load(nodelet));
+    EXPECT_TRUE(fusesFromNowOn()) << nodelet;
+  }
+  streaming = false;
+  sensor.join();
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class IcpTrackingNodelet : public StageNodelet {
   void prepare(const TexturedFrame& frame);
   void makeTracker(const CameraIntrinsics& camera);
   void apply(const FusionNews& news);
-  // A clock set back, frames skipped before this one.
+  // A clock set back, a map that is gone, frames skipped before this one.
   void catchUp(const SensorFrame& frame);
   // Why a frame is not to be tracked at all, or nothing.
   std::string refusal(const SensorFrame& frame) const;
@@ -240,6 +240,7 @@ void IcpTrackingNodelet::catchUp(const SensorFrame& frame) {
       fusion_->beginMap();
     }
   }
+  if (map_ != nullptr && map_->map.expired()) forgetMap();  // tsdf_fusion was unloaded
   skipped_.replay(frame, *tracker_);
 }
 
