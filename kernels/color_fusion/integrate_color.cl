@@ -1,7 +1,7 @@
-// Fuses a colour image into the voxels of the visible blocks that lie near the surface: a weighted average, by viewing
-// angle, distance and quality of the pixel. A voxel takes the colour of the surface point next to it, which one Newton
-// step along the distance's gradient finds, so that it sees the same point from everywhere. Work-items as in
-// shared/block_items.h.
+// Fuses a colour image into the voxels of the visible blocks that lie near the surface: a weighted average,
+// by viewing angle, distance and quality of the pixel. A voxel takes the colour of the surface point next to
+// it, which one Newton step along the distance's gradient finds, so that it sees the same point from
+// everywhere. Work-items as in shared/block_items.h.
 //   colors   of the pool (shared/color_map.h)
 //   voxels   distances and certainties of the pool
 //   visible  slots of the blocks; those no longer in use are left out
@@ -13,14 +13,14 @@
 #include "shared/color_map.h"
 #include "shared/image.h"
 
-#define BAND_VOX 1.5f         // half the thickness of the coloured layer
-#define LEAST_COSINE 0.1f     // of the viewing angle
-#define MOST_STRETCH 3.0f     // distances are measured along rays, which stretches them on slanting surfaces
+#define BAND_VOX 1.5f      // half the thickness of the coloured layer
+#define LEAST_COSINE 0.1f  // of the viewing angle
+#define MOST_STRETCH 3.0f  // distances are measured along rays, which stretches them on slanting surfaces
 #define MAX_FRAME_WEIGHT 16.0f
 
-// Slope of the distance along an axis, in steps a voxel, within the block: a central difference, or one-sided at the
-// block's border and beside unknown voxels. `place` is the voxels' coordinate along the axis.
-inline vfloat slope(__global const char *distances, vint voxel, vint place, int stride, vint centre) {
+// Slope of the distance along an axis, in steps a voxel, within the block: a central difference, or one-sided
+// at the block's border and beside unknown voxels. `place` is the voxels' coordinate along the axis.
+inline vfloat slope(__global const char* distances, vint voxel, vint place, int stride, vint centre) {
   const vint before = TO_VINT(GATHER(vchar, distances, select(voxel, voxel - stride, place > 0)));
   const vint after = TO_VINT(GATHER(vchar, distances, select(voxel, voxel + stride, place < BLOCK_SIZE - 1)));
   const vint lower = select(before, centre, before == TSDF_CHI);
@@ -35,19 +35,22 @@ typedef struct {
   vint valid;
 } Projections;
 
-inline Projections project(vfloat x_W, vfloat y_W, vfloat z_W, const TransformArgs T_C_W, const CameraArgs camera) {
+inline Projections project(vfloat x_W, vfloat y_W, vfloat z_W, const TransformArgs T_C_W,
+                           const CameraArgs camera) {
   Projections p;
   p.x = rotated(T_C_W, 0, x_W, y_W, z_W) + T_C_W.translation[0];
   p.y = rotated(T_C_W, 1, x_W, y_W, z_W) + T_C_W.translation[1];
   p.z = rotated(T_C_W, 2, x_W, y_W, z_W) + T_C_W.translation[2];
   p.u = camera.fx * p.x / p.z + camera.cx;
   p.v = camera.fy * p.y / p.z + camera.cy;
-  p.valid = (p.z > 0.0f) & (p.u >= 0.0f) & (p.u < camera.width - 1.0f) & (p.v >= 0.0f) & (p.v < camera.height - 1.0f);
+  p.valid = (p.z > 0.0f) & (p.u >= 0.0f) & (p.u < camera.width - 1.0f) & (p.v >= 0.0f) &
+            (p.v < camera.height - 1.0f);
   return p;
 }
 
 // Cosine of the angle between gradient and ray, positive seen from free space.
-inline vfloat viewing_cosine(Projections p, vfloat gx, vfloat gy, vfloat gz, vfloat squared, const TransformArgs T_C_W) {
+inline vfloat viewing_cosine(Projections p, vfloat gx, vfloat gy, vfloat gz, vfloat squared,
+                             const TransformArgs T_C_W) {
   const vfloat towards = -(p.x * rotated(T_C_W, 0, gx, gy, gz) + p.y * rotated(T_C_W, 1, gx, gy, gz) +
                            p.z * rotated(T_C_W, 2, gx, gy, gz));
   return towards * rsqrt(squared * (p.x * p.x + p.y * p.y + p.z * p.z));
@@ -69,12 +72,11 @@ inline vuint averaged(vuint old, int shift, vfloat measured, vfloat gain, vfloat
   return AS_VUINT(clamp(rounded, (vint)(0), (vint)(255))) << (uint)shift;
 }
 
-__kernel void integrate_color(__global uint *colors, __global const char *voxels, __global const int *visible,
-                              int visible_count, __global const int4 *block_indices,
-                              __global const int *block_states, __global const uint *image,
-                              __global const float *depth_C, CameraArgs camera, TransformArgs T_C_W, TransformArgs T_A_W,
-                              GridArgs grid, SensorArgs sensor,
-                              ColorFusionArgs args) {
+__kernel void integrate_color(__global uint* colors, __global const char* voxels, __global const int* visible,
+                              int visible_count, __global const int4* block_indices,
+                              __global const int* block_states, __global const uint* image,
+                              __global const float* depth_C, CameraArgs camera, TransformArgs T_C_W,
+                              TransformArgs T_A_W, GridArgs grid, SensorArgs sensor, ColorFusionArgs args) {
   const int item = get_global_id(0);
   const int entry = item / ITEMS_PER_BLOCK;
   if (entry >= visible_count) return;
@@ -84,8 +86,8 @@ __kernel void integrate_color(__global uint *colors, __global const char *voxels
   const int3 block = index.xyz;
   const int first_voxel = item % ITEMS_PER_BLOCK * ITEM_VOXELS;
   const float size = grid.voxel_size_m;
-  __global const char *distances = voxels + block_distances(slot);
-  __global uint *block_color = colors + block_colors(slot);
+  __global const char* distances = voxels + block_distances(slot);
+  __global uint* block_color = colors + block_colors(slot);
   const int band_steps = min((int)(MOST_STRETCH * BAND_VOX * TSDF_MAX * size / grid.truncation_m), TSDF_MAX);
 
   for (int first = first_voxel; first < first_voxel + ITEM_VOXELS; first += SIMD_WIDTH) {
@@ -134,7 +136,8 @@ __kernel void integrate_color(__global uint *colors, __global const char *voxels
     const vfloat fv = aligned.v - TO_VFLOAT(v0);
     const vuint phase = dither_phase(first, block, args.frame) + AS_VUINT(LANE_INDICES) * DITHER_STEP;
     const vfloat random = TO_VFLOAT(AS_VINT(phase >> 8)) * (1.0f / 16777216.0f);
-    vuint fused = averaged(old, 0, args.exposure_gain[0] * between(p00, p10, p01, p11, 0, fu, fv), gain, random);
+    vuint fused =
+        averaged(old, 0, args.exposure_gain[0] * between(p00, p10, p01, p11, 0, fu, fv), gain, random);
     fused |= averaged(old, 8, args.exposure_gain[1] * between(p00, p10, p01, p11, 8, fu, fv), gain, random);
     fused |= averaged(old, 16, args.exposure_gain[2] * between(p00, p10, p01, p11, 16, fu, fv), gain, random);
     const vint new_weight = TO_VINT(min(total + (1.0f - random), args.max_weight));

@@ -1,11 +1,12 @@
-// What the map says about the colour of the surface that the depth camera sees. A work-item samples one pixel.
+// What the map says about the colour of the surface that the depth camera sees. A work-item samples one
+// pixel.
 //   points  p_W a sample
 //   found   blue, green, red and weight a sample; weight 0 = no colour
 #include "shared/color_map.h"
 #include "shared/image.h"
 
-__kernel void sample_surface(__global float4 *points, __global float4 *found, __global const float *depth,
-                             __global const int *offsets, __global const uint *colors, CameraArgs camera,
+__kernel void sample_surface(__global float4* points, __global float4* found, __global const float* depth,
+                             __global const int* offsets, __global const uint* colors, CameraArgs camera,
                              TransformArgs T_W_D, GridArgs grid, int stride, int columns, int samples) {
   const int i = get_global_id(0);
   if (i >= samples) return;

@@ -1,19 +1,20 @@
-// What the device can do at most, for benchmarks to compare kernels with: an empty launch, copying, arithmetic, gathers.
-// A work-item takes SIMD_WIDTH elements at a time.
+// What the device can do at most, for benchmarks to compare kernels with: an empty launch, copying,
+// arithmetic, gathers. A work-item takes SIMD_WIDTH elements at a time.
 #include "shared/simd.h"
 
-__kernel void do_nothing(__global float *unused) {}
+__kernel void do_nothing(__global float* unused) {}
 
 // Both buffers hold SIMD_WIDTH elements a work-item.
-__kernel void copy_memory(__global const float *source, __global float *destination) {
+__kernel void copy_memory(__global const float* source, __global float* destination) {
   const size_t first = get_global_id(0) * SIMD_WIDTH;
   VSTORE(VLOAD(source + first), destination + first);
 }
 
 // 8 multiply-adds a round and lane, in chains that do not wait for each other.
-__kernel void multiply_add(__global float *sums, int rounds, float factor) {
+__kernel void multiply_add(__global float* sums, int rounds, float factor) {
   const vfloat start = TO_VFLOAT(LANE_INDICES);
-  vfloat a = start, b = start + 1, c = start + 2, d = start + 3, e = start + 4, f = start + 5, g = start + 6, h = start + 7;
+  vfloat a = start, b = start + 1, c = start + 2, d = start + 3, e = start + 4, f = start + 5, g = start + 6,
+         h = start + 7;
   for (int round = 0; round < rounds; ++round) {
     a = mad(a, (vfloat)(factor), start);
     b = mad(b, (vfloat)(factor), start);
@@ -28,7 +29,7 @@ __kernel void multiply_add(__global float *sums, int rounds, float factor) {
 }
 
 // One gather a round and lane, from anywhere in a table whose size is a power of two.
-__kernel void gather_words(__global const int *table, __global int *sums, int rounds, int last_index) {
+__kernel void gather_words(__global const int* table, __global int* sums, int rounds, int last_index) {
   const int first = get_global_id(0) * SIMD_WIDTH;
   vuint place = (AS_VUINT(LANE_INDICES) + (uint)first) * 2654435769u;
   vint sum = 0;

@@ -3,7 +3,7 @@
 //   sum     one integer, 0 before
 #include "shared/simd.h"
 
-__kernel void sum_of_squares(__global const int *values, __global int *sum, int count) {
+__kernel void sum_of_squares(__global const int* values, __global int* sum, int count) {
   const int item = get_global_id(0);
   if (item >= count) return;
   const vint index = item * SIMD_WIDTH + LANE_INDICES;

@@ -1,10 +1,10 @@
-// One ICP iteration: matching, rejection and the first reduction of the point-to-plane system (the paper's section
-// "Registration"). A work-group takes one of the source's rows, every row_step-th; its sums go to
+// One ICP iteration: matching, rejection and the first reduction of the point-to-plane system (the paper's
+// section "Registration"). A work-group takes one of the source's rows, every row_step-th; its sums go to
 // partial_sums[group * ICP_SUMS + i].
 //   source_*  depth and normals (shared/normal.h) of the current frame, camera `source`
 //   model_*   depth and normals of the model view, camera `model`
-// Residual r = n . (T p - q); Jacobian with respect to the twist (rotation, translation) applied on the left of T:
-// J = [(T p) x n, n].
+// Residual r = n . (T p - q); Jacobian with respect to the twist (rotation, translation) applied on the left
+// of T: J = [(T p) x n, n].
 #include "shared/image.h"
 #include "shared/normal.h"
 #ifndef GROUP_SIZE
@@ -12,9 +12,9 @@
 #endif
 
 __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate_system(
-    __global const float *source_depth, __global const uint *source_normals, __global const float *model_depth,
-    __global const uint *model_normals, __global float *partial_sums, CameraArgs source, CameraArgs model,
-    TransformArgs T_M_D, SensorArgs sensor, MatchingArgs args) {
+    __global const float* source_depth, __global const uint* source_normals,
+    __global const float* model_depth, __global const uint* model_normals, __global float* partial_sums,
+    CameraArgs source, CameraArgs model, TransformArgs T_M_D, SensorArgs sensor, MatchingArgs args) {
   const int group = get_group_id(0);
   const int row = group * args.row_step;
   const int item = get_local_id(0);
@@ -49,13 +49,15 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
     const vfloat dz = pz - qz;
     const vfloat cosine = n.x * rotated(T_M_D, 0, s.x, s.y, s.z) + n.y * rotated(T_M_D, 1, s.x, s.y, s.z) +
                           n.z * rotated(T_M_D, 2, s.x, s.y, s.z);
-    inlier = inlier & (qz > 0.0f) & (dx * dx + dy * dy + dz * dz < args.max_distance_m * args.max_distance_m) &
+    inlier = inlier & (qz > 0.0f) &
+             (dx * dx + dy * dy + dz * dz < args.max_distance_m * args.max_distance_m) &
              (cosine > args.min_normal_cosine);
     if (!ANY(inlier)) continue;
 
     const vfloat residual = n.x * dx + n.y * dy + n.z * dz;
     const vfloat sigma_m = AXIAL_SIGMA_M(sensor, depth);
-    const vfloat huber = min(args.huber_sigmas * sigma_m / max(fabs(residual), (vfloat)(1e-6f)), (vfloat)(1.0f));
+    const vfloat huber =
+        min(args.huber_sigmas * sigma_m / max(fabs(residual), (vfloat)(1e-6f)), (vfloat)(1.0f));
     const vfloat weight =
         select((vfloat)(0.0f), huber * (ICP_UNIT_SIGMA_M * ICP_UNIT_SIGMA_M) / (sigma_m * sigma_m), inlier);
     const vfloat jacobian[6] = {py * n.z - pz * n.y, pz * n.x - px * n.z, px * n.y - py * n.x, n.x, n.y, n.z};

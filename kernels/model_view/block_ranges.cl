@@ -1,5 +1,5 @@
-// Where the rays of each tile of the view can hit, by the octants of blocks that are near the surface. A work-item projects
-// those of a slot of the groups in view, an octant a lane.
+// Where the rays of each tile of the view can hit, by the octants of blocks that are near the surface. A
+// work-item projects those of a slot of the groups in view, an octant a lane.
 #include "model_view/ray_ranges.h"
 #include "shared/block_map.h"
 #include "shared/image.h"
@@ -14,7 +14,8 @@ typedef struct {
   float8 lowest, highest;
 } Extents;
 
-// Of boxes along the axes of frame D. One that reaches behind the camera covers what its part ahead of it covers.
+// Of boxes along the axes of frame D. One that reaches behind the camera covers what its part ahead of it
+// covers.
 inline Extents pixel_extents(float8 centre, float reach, const Extents depth, float focal_length,
                              float image_centre) {
   const float8 near = focal_length / max(depth.lowest, (float8)(1e-3f)), far = focal_length / depth.highest;
@@ -24,23 +25,25 @@ inline Extents pixel_extents(float8 centre, float reach, const Extents depth, fl
   return pixels;
 }
 
-inline int8 in_image(const Extents pixels, int size) { return (pixels.highest >= 0.0f) & (pixels.lowest <= size - 1); }
+inline int8 in_image(const Extents pixels, int size) {
+  return (pixels.highest >= 0.0f) & (pixels.lowest <= size - 1);
+}
 
 inline int8 tile_at(float8 pixel, int size) {
   return convert_int8(clamp(pixel, (float8)(0.0f), (float8)(size - 1.0f))) / RANGE_TILE;
 }
 
 // Adds a range to a tile's.
-inline void widen(int tile, float start, ulong bins, __global int *nearest, __global uint *occupied) {
+inline void widen(int tile, float start, ulong bins, __global int* nearest, __global uint* occupied) {
   if (nearest[tile] > as_int(start)) atomic_min(nearest + tile, as_int(start));
   const uint low = (uint)bins, high = (uint)(bins >> 32);
   if (low & ~occupied[2 * tile]) atomic_or(occupied + 2 * tile, low);
   if (high & ~occupied[2 * tile + 1]) atomic_or(occupied + 2 * tile + 1, high);
 }
 
-__kernel void splat_block_ranges(__global const int *groups, int group_count, int slots,
-                                 __global const int4 *block_indices, __global const int *block_states,
-                                 __global int *nearest, __global uint *occupied, CameraArgs camera,
+__kernel void splat_block_ranges(__global const int* groups, int group_count, int slots,
+                                 __global const int4* block_indices, __global const int* block_states,
+                                 __global int* nearest, __global uint* occupied, CameraArgs camera,
                                  TransformArgs T_D_W, GridArgs grid, RayRangeArgs range) {
   const int slot = slot_in_view(groups, group_count, slots);
   if (slot < 0) return;
@@ -62,7 +65,8 @@ __kernel void splat_block_ranges(__global const int *groups, int group_count, in
   const Extents depth = {z - reach.z, z + reach.z};
   const Extents u = pixel_extents(x, reach.x, depth, camera.fx, camera.cx);
   const Extents v = pixel_extents(y, reach.y, depth, camera.fy, camera.cy);
-  const float8 start = max(depth.lowest, (float8)(range.min_m)), end = min(depth.highest, (float8)(range.max_m));
+  const float8 start = max(depth.lowest, (float8)(range.min_m)),
+               end = min(depth.highest, (float8)(range.max_m));
   const int8 seen = (start <= end) & in_image(u, camera.width) & in_image(v, camera.height);
 
   float starts[8], ends[8];

@@ -15,7 +15,7 @@ inline float3 point_at(int x, int y, float z, const CameraArgs camera) {
 }
 
 // A grey surface lit from the camera.
-__kernel void shade_view(__global uchar4 *picture, __global const float *depth, __global const uint *normals,
+__kernel void shade_view(__global uchar4* picture, __global const float* depth, __global const uint* normals,
                          CameraArgs camera) {
   const int x = get_global_id(0);
   const int y = get_global_id(1);
@@ -29,8 +29,8 @@ __kernel void shade_view(__global uchar4 *picture, __global const float *depth, 
 }
 
 // The map's colours.
-__kernel void color_view(__global uchar4 *picture, __global const float *depth, __global const int *offsets,
-                         __global const uint *colors, CameraArgs camera, TransformArgs T_W_D, GridArgs grid) {
+__kernel void color_view(__global uchar4* picture, __global const float* depth, __global const int* offsets,
+                         __global const uint* colors, CameraArgs camera, TransformArgs T_W_D, GridArgs grid) {
   const int x = get_global_id(0);
   const int y = get_global_id(1);
   if (x >= camera.width) return;

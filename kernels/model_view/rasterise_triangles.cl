@@ -1,6 +1,6 @@
-// Triangles to depth and normals: first every triangle's depth, the nearest of a pixel by an atomic, then the normals of
-// those that are the nearest. A work-item is a vertex (project_vertices), a triangle (all of them, then
-// those drawn) or, at the end, a pixel.
+// Triangles to depth and normals: first every triangle's depth, the nearest of a pixel by an atomic, then the
+// normals of those that are the nearest. A work-item is a vertex (project_vertices), a triangle (all of them,
+// then those drawn) or, at the end, a pixel.
 //   vertices    position and normal in W, six floats
 //   projected   u, v in pixels, 1 / z, and 0; 1 / z is 0 for a vertex nearer than MIN_Z
 //   triangles   three vertices, counter-clockwise seen from free space
@@ -15,13 +15,14 @@
 #define SEAM_PX 1e-3f
 #define SAME_DEPTH 1.00001f
 
-__kernel void project_vertices(__global float4 *projected, __global const float *vertices, int count, CameraArgs camera,
-                               TransformArgs T_D_W) {
+__kernel void project_vertices(__global float4* projected, __global const float* vertices, int count,
+                               CameraArgs camera, TransformArgs T_D_W) {
   const int i = get_global_id(0);
   if (i >= count) return;
   const float3 p = transform_point(T_D_W, vload3(2 * i, vertices));
   const float inverse_z = p.z > MIN_Z ? 1.0f / p.z : 0.0f;
-  projected[i] = (float4)(camera.fx * p.x * inverse_z + camera.cx, camera.fy * p.y * inverse_z + camera.cy, inverse_z, 0.0f);
+  projected[i] = (float4)(camera.fx * p.x * inverse_z + camera.cx, camera.fy * p.y * inverse_z + camera.cy,
+                          inverse_z, 0.0f);
 }
 
 typedef struct {
@@ -31,7 +32,7 @@ typedef struct {
   float tolerance;     // of the weights
 } ScreenTriangle;
 
-inline ScreenTriangle screen_triangle(__global const float4 *projected, __global const uint *triangles, int i,
+inline ScreenTriangle screen_triangle(__global const float4* projected, __global const uint* triangles, int i,
                                       const CameraArgs camera) {
   const uint3 corners = vload3(i, triangles);
   ScreenTriangle t;
@@ -41,9 +42,10 @@ inline ScreenTriangle screen_triangle(__global const float4 *projected, __global
   const float2 ab = t.b.xy - t.a.xy, ac = t.c.xy - t.a.xy;
   const float area = ab.y * ac.x - ab.x * ac.y;  // positive if the front is seen
   t.per_area = 1.0f / area;
-  const float2 low = fmin(t.a.xy, fmin(t.b.xy, t.c.xy)) - SEAM_PX, high = fmax(t.a.xy, fmax(t.b.xy, t.c.xy)) + SEAM_PX;
-  const int seen = area > 0.0f && t.a.z > 0.0f && t.b.z > 0.0f && t.c.z > 0.0f && high.x >= 0.0f && high.y >= 0.0f &&
-                   low.x <= camera.width - 1 && low.y <= camera.height - 1;
+  const float2 low = fmin(t.a.xy, fmin(t.b.xy, t.c.xy)) - SEAM_PX,
+               high = fmax(t.a.xy, fmax(t.b.xy, t.c.xy)) + SEAM_PX;
+  const int seen = area > 0.0f && t.a.z > 0.0f && t.b.z > 0.0f && t.c.z > 0.0f && high.x >= 0.0f &&
+                   high.y >= 0.0f && low.x <= camera.width - 1 && low.y <= camera.height - 1;
   t.x0 = seen ? max((int)ceil(low.x), 0) : 0;
   t.y0 = seen ? max((int)ceil(low.y), 0) : 0;
   t.x1 = seen ? (int)fmin(high.x, camera.width - 1.0f) : -1;
@@ -70,11 +72,11 @@ inline float depth_at(const ScreenTriangle t, float3 weights) {
   return 1.0f / clamp(inverse_z, fmin(t.a.z, fmin(t.b.z, t.c.z)), fmax(t.a.z, fmax(t.b.z, t.c.z)));
 }
 
-// Lists the triangles that were the nearest at some time: many are smaller than a pixel and cover none. What they cover
-// loses its normal.
-__kernel void rasterise_depth(__global uint *normals, __global int *nearest, __global int *drawn,
-                              __global int *drawn_count, __global const float4 *projected,
-                              __global const uint *triangles, int count, CameraArgs camera, float min_range_m,
+// Lists the triangles that were the nearest at some time: many are smaller than a pixel and cover none. What
+// they cover loses its normal.
+__kernel void rasterise_depth(__global uint* normals, __global int* nearest, __global int* drawn,
+                              __global int* drawn_count, __global const float4* projected,
+                              __global const uint* triangles, int count, CameraArgs camera, float min_range_m,
                               float max_range_m) {
   const int i = get_global_id(0);
   if (i >= count) return;
@@ -85,7 +87,7 @@ __kernel void rasterise_depth(__global uint *normals, __global int *nearest, __g
       const float3 weights = weights_at(t, x, y);
       const float z = depth_at(t, weights);
       if (!covers(t, weights) || !(z >= min_range_m && z <= max_range_m)) continue;
-      __global int *pixel = nearest + pixel_index(x, y, camera);
+      __global int* pixel = nearest + pixel_index(x, y, camera);
       if (as_int(z) >= *pixel || as_int(z) >= atomic_min(pixel, as_int(z))) continue;
       atomic_xchg(normals + pixel_index(x, y, camera), 0);
       is_drawn = true;
@@ -95,9 +97,9 @@ __kernel void rasterise_depth(__global uint *normals, __global int *nearest, __g
 }
 
 // normals: in frame D. Where triangles share an edge, the largest word stays, whichever comes first.
-__kernel void rasterise_normals(__global uint *normals, __global const int *nearest,
-                                __global const int *drawn, __global const float4 *projected,
-                                __global const float *vertices, __global const uint *triangles, int count,
+__kernel void rasterise_normals(__global uint* normals, __global const int* nearest,
+                                __global const int* drawn, __global const float4* projected,
+                                __global const float* vertices, __global const uint* triangles, int count,
                                 CameraArgs camera, TransformArgs T_D_W) {
   if (get_global_id(0) >= count) return;
   const int i = drawn[get_global_id(0)];
@@ -117,7 +119,7 @@ __kernel void rasterise_normals(__global uint *normals, __global const int *near
 }
 
 // The view's depth: `nearest` as metres; 0 where no triangle is.
-__kernel void resolve_depth(__global float *depth, __global const int *nearest, CameraArgs camera) {
+__kernel void resolve_depth(__global float* depth, __global const int* nearest, CameraArgs camera) {
   const int x = get_global_id(0);
   const int y = get_global_id(1);
   if (x >= camera.width) return;

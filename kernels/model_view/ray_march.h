@@ -1,6 +1,6 @@
-// Following rays through the block-sparse map to where the distance first goes from positive to negative. Rays are
-// parametrised by depth t (z in frame D): p(t) = origin + t * direction, in voxels from the first voxel of the window, so that
-// the conversion to integers, which truncates, rounds down.
+// Following rays through the block-sparse map to where the distance first goes from positive to negative.
+// Rays are parametrised by depth t (z in frame D): p(t) = origin + t * direction, in voxels from the first
+// voxel of the window, so that the conversion to integers, which truncates, rounds down.
 #include "model_view/ray_ranges.h"
 #include "shared/image.h"
 #include "shared/window.h"
@@ -23,7 +23,8 @@ inline Point ray_origin(const TransformArgs T_W_D, const GridArgs grid) {
   return origin;
 }
 
-inline Rays make_rays(vint u, vint v, const CameraArgs camera, const TransformArgs T_W_D, const GridArgs grid) {
+inline Rays make_rays(vint u, vint v, const CameraArgs camera, const TransformArgs T_W_D,
+                      const GridArgs grid) {
   const float per_voxel = 1.0f / grid.voxel_size_m;
   const vfloat x = (TO_VFLOAT(u) - camera.cx) * (per_voxel / camera.fx);
   const vfloat y = (TO_VFLOAT(v) - camera.cy) * (per_voxel / camera.fy);
@@ -54,7 +55,8 @@ typedef struct {
 } Voxels;
 
 // `rays` where `active`, from where their tiles have a surface.
-inline March begin_march(const Rays rays, vint active, vfloat nearest_m, ulong bins, const RayRangeArgs range) {
+inline March begin_march(const Rays rays, vint active, vfloat nearest_m, ulong bins,
+                         const RayRangeArgs range) {
   March march;
   march.rays = rays;
   march.bins = bins;
@@ -66,8 +68,8 @@ inline March begin_march(const Rays rays, vint active, vfloat nearest_m, ulong b
 }
 
 // `origin` is half a voxel ahead, for blocks hold the points that round to their voxels.
-inline Voxels look(const March march, const Point origin, __global const int *offsets, __global const char *voxels,
-                   const GridArgs grid) {
+inline Voxels look(const March march, const Point origin, __global const int* offsets,
+                   __global const char* voxels, const GridArgs grid) {
   const int n = grid.blocks_per_axis;
   const vint x = TO_VINT(origin.x + march.t * march.rays.direction_x);
   const vint y = TO_VINT(origin.y + march.t * march.rays.direction_y);
@@ -99,15 +101,17 @@ inline vfloat step_out_of_block(const March march, const Voxels at, const Point 
   return max(exit_t, march.t) + 0.05f * march.rays.t_per_voxel;
 }
 
-// As far as the distance says, and where it falls more slowly, a little beyond zero_t, where it would be zero.
+// As far as the distance says, and where it falls more slowly, a little beyond zero_t, where it would be
+// zero.
 inline vfloat step_in_band(const March march, vint distance, vfloat zero_t, float voxels_per_step) {
   const vfloat safe_t = march.t + fabs(TO_VFLOAT(distance)) * voxels_per_step * march.rays.t_per_voxel;
   const vint falling = (march.previous != TSDF_CHI) & (distance > 0) & (march.previous > distance);
-  const vfloat ahead_t = select(safe_t, clamp(zero_t, safe_t, safe_t + 2.0f * march.rays.t_per_voxel), falling);
+  const vfloat ahead_t =
+      select(safe_t, clamp(zero_t, safe_t, safe_t + 2.0f * march.rays.t_per_voxel), falling);
   return max(ahead_t + 0.25f * march.rays.t_per_voxel, march.t + march.rays.t_per_voxel);
 }
 
-inline void advance(March *march, const Voxels at, const Point origin, const GridArgs grid,
+inline void advance(March* march, const Voxels at, const Point origin, const GridArgs grid,
                     const RayRangeArgs range) {
   const float truncation_voxels = grid.truncation_m / grid.voxel_size_m;
   const float voxels_per_step = truncation_voxels / TSDF_MAX;
@@ -115,19 +119,20 @@ inline void advance(March *march, const Voxels at, const Point origin, const Gri
   const vint distance = at.distance;
   const vint known = distance != TSDF_CHI;
 
-  // A step from an unknown voxel may end a little behind the surface: then the distance leads back. Farther behind,
-  // the ray came from the surface's back.
+  // A step from an unknown voxel may end a little behind the surface: then the distance leads back. Farther
+  // behind, the ray came from the surface's back.
   const vint behind = march->active & known & (distance <= 0);
   const vint crossed = behind & (march->previous > 0);
   const vint overshot = behind & (march->previous == TSDF_CHI) & (distance > -TSDF_MAX / 2);
   const vfloat zero_t = march->t + TO_VFLOAT(distance) * (march->t - march->previous_t) /
                                        TO_VFLOAT(max(march->previous - distance, (vint)(1)));
   march->hit_t = select(march->hit_t, zero_t, crossed);
-  march->hit_t = select(march->hit_t, march->t + TO_VFLOAT(distance) * voxels_per_step * march->rays.t_per_voxel,
-                        overshot);
+  march->hit_t = select(march->hit_t,
+                        march->t + TO_VFLOAT(distance) * voxels_per_step * march->rays.t_per_voxel, overshot);
   march->active = march->active & NOT(crossed | overshot);
 
-  vfloat next_t = select(march->t + chi_step_t, step_in_band(*march, distance, zero_t, voxels_per_step), known);
+  vfloat next_t =
+      select(march->t + chi_step_t, step_in_band(*march, distance, zero_t, voxels_per_step), known);
   if (ANY(march->active & NOT(at.allocated))) {
     next_t = select(step_out_of_block(*march, at, origin), next_t, at.allocated);
     if (!ANY(march->active & at.allocated)) {
@@ -141,9 +146,10 @@ inline void advance(March *march, const Voxels at, const Point origin, const Gri
   march->active = march->active & (next_t < range.max_m);
 }
 
-// Follows the rays of up to MAX_MARCHES vectors to their crossings. While one waits for its voxels, the others go on.
-inline void follow(March *marches, int count, const Point origin, __global const int *offsets,
-                   __global const char *voxels, const GridArgs grid, const RayRangeArgs range) {
+// Follows the rays of up to MAX_MARCHES vectors to their crossings. While one waits for its voxels, the
+// others go on.
+inline void follow(March* marches, int count, const Point origin, __global const int* offsets,
+                   __global const char* voxels, const GridArgs grid, const RayRangeArgs range) {
   const Point middle = {origin.x + 0.5f, origin.y + 0.5f, origin.z + 0.5f};
   vint active = -1;
   for (int step = 0; step < MAX_STEPS && ANY(active); ++step) {

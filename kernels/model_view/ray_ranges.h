@@ -1,5 +1,5 @@
-// Where the rays of a tile of the view can hit (the paper's start and end textures): the depth of the nearest surface,
-// and a bit for every bin of depth with some.
+// Where the rays of a tile of the view can hit (the paper's start and end textures): the depth of the nearest
+// surface, and a bit for every bin of depth with some.
 //   nearest   metres; float bits as ints, whose order is the same for positive floats
 //   occupied  two words a tile, the lower bins' first
 #include "shared/simd.h"
@@ -17,7 +17,7 @@ inline vint tiles_of(vint x, vint y, const CameraArgs camera) {
          min(x, (vint)(camera.width - 1)) / RANGE_TILE;
 }
 
-inline ulong bins_of(int tile, __global const uint *occupied) {
+inline ulong bins_of(int tile, __global const uint* occupied) {
   return upsample(occupied[2 * tile + 1], occupied[2 * tile]);
 }
 

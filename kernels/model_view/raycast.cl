@@ -1,7 +1,8 @@
-// Ray casting of the block-sparse map, as the paper has it: a ray is followed to the voxel where the distance first goes from
-// positive to negative, where trilinear interpolation finds the surface, and its normal. One ray of every 2x2 pixels is
-// followed; the others look for the surface where its plane meets them, and are followed if it is not there, but show nothing
-// where the first one met nothing. So what is narrower than two pixels may be missing, or taken for what lies behind it.
+// Ray casting of the block-sparse map, as the paper has it: a ray is followed to the voxel where the distance
+// first goes from positive to negative, where trilinear interpolation finds the surface, and its normal. One
+// ray of every 2x2 pixels is followed; the others look for the surface where its plane meets them, and are
+// followed if it is not there, but show nothing where the first one met nothing. So what is narrower than two
+// pixels may be missing, or taken for what lies behind it.
 #include "model_view/ray_march.h"
 #include "model_view/trilinear.h"
 #include "shared/normal.h"
@@ -9,7 +10,8 @@
 #define PATCHES RAY_PATCHES(SIMD_WIDTH)
 #define PATCH_RAYS (RAY_STRIDE * RAY_STRIDE)
 
-// t: depth in metres; gradient of the distance in frame W, in steps of the distance byte a voxel; known: 0 = no surface
+// t: depth in metres; gradient of the distance in frame W, in steps of the distance byte a voxel; known: 0 =
+// no surface
 typedef struct {
   vfloat t, gradient_x, gradient_y, gradient_z;
   vint known;
@@ -21,8 +23,8 @@ inline vfloat along(const Rays rays, const Surface surface) {
 }
 
 // By one Newton step from t, which is about a voxel away at most.
-inline Surface find_surface(const Rays rays, vfloat t, vint active, const Point origin, __global const int *offsets,
-                            __global const char *voxels, const GridArgs grid) {
+inline Surface find_surface(const Rays rays, vfloat t, vint active, const Point origin,
+                            __global const int* offsets, __global const char* voxels, const GridArgs grid) {
   const Sample sample = interpolate(origin.x + t * rays.direction_x, origin.y + t * rays.direction_y,
                                     origin.z + t * rays.direction_z, active, offsets, voxels, grid);
   Surface surface = {t, sample.gradient_x, sample.gradient_y, sample.gradient_z, sample.known};
@@ -35,7 +37,7 @@ inline Surface find_surface(const Rays rays, vfloat t, vint active, const Point 
 
 // Where other rays, a pixel beside, meet the plane of a surface, if the surface is there, within a voxel.
 inline Surface find_beside(const Rays rays, const Rays first_rays, const Surface first, vint in_view,
-                           const Point origin, __global const int *offsets, __global const char *voxels,
+                           const Point origin, __global const int* offsets, __global const char* voxels,
                            const GridArgs grid) {
   const vfloat t = first.t * along(first_rays, first) / along(rays, first);
   const vint expected = in_view & first.known & (fabs(t - first.t) < 3.0f * rays.t_per_voxel);
@@ -45,7 +47,7 @@ inline Surface find_beside(const Rays rays, const Rays first_rays, const Surface
 }
 
 // Stores rows of words that stand side by side in turn, of pixels with even and with odd columns.
-inline void store_rows(vuint even, vuint odd, int x, int y, __global uint *image, const CameraArgs camera) {
+inline void store_rows(vuint even, vuint odd, int x, int y, __global uint* image, const CameraArgs camera) {
 #if SIMD_WIDTH == 1
   if (y >= camera.height) return;
   image[pixel_index(x, y, camera)] = even;
@@ -73,25 +75,26 @@ inline vuint depth_bits(const Surface surface) {
 }
 
 inline vuint normal_bits(const Surface surface, const TransformArgs T_W_D) {
-  const vuint normals = pack_normals(gradient_component(surface, 0, T_W_D), gradient_component(surface, 1, T_W_D),
-                                     gradient_component(surface, 2, T_W_D));
+  const vuint normals =
+      pack_normals(gradient_component(surface, 0, T_W_D), gradient_component(surface, 1, T_W_D),
+                   gradient_component(surface, 2, T_W_D));
   return select((vuint)(0), normals, AS_VUINT(surface.known));
 }
 
-inline void store_surfaces(const Surface even, const Surface odd, int x, int y, __global float *depth,
-                           __global uint *normals, const CameraArgs camera, const TransformArgs T_W_D) {
-  store_rows(depth_bits(even), depth_bits(odd), x, y, (__global uint *)depth, camera);
+inline void store_surfaces(const Surface even, const Surface odd, int x, int y, __global float* depth,
+                           __global uint* normals, const CameraArgs camera, const TransformArgs T_W_D) {
+  store_rows(depth_bits(even), depth_bits(odd), x, y, (__global uint*)depth, camera);
   store_rows(normal_bits(even, T_W_D), normal_bits(odd, T_W_D), x, y, normals, camera);
 }
 
-// Pixels whose rays are yet to be followed, as column and row, 16 bits each. Few of a patch's are, so that those of all
-// the patches are put together into vectors.
+// Pixels whose rays are yet to be followed, as column and row, 16 bits each. Few of a patch's are, so that
+// those of all the patches are put together into vectors.
 typedef struct {
   uint pixels[PATCHES * (PATCH_RAYS - 1) * SIMD_WIDTH + SIMD_WIDTH];
   int count;
 } PixelList;
 
-inline void append(PixelList *list, vint column, vint row, vint wanted) {
+inline void append(PixelList* list, vint column, vint row, vint wanted) {
   if (!ANY(wanted)) return;
   uint pixels[SIMD_WIDTH];
   int is_wanted[SIMD_WIDTH];
@@ -104,7 +107,7 @@ inline void append(PixelList *list, vint column, vint row, vint wanted) {
 }
 
 // Stores a word a pixel, where `wanted`.
-inline void scatter(vuint words, vint pixels, vint wanted, __global uint *image) {
+inline void scatter(vuint words, vint pixels, vint wanted, __global uint* image) {
   uint word[SIMD_WIDTH];
   int pixel[SIMD_WIDTH], is_wanted[SIMD_WIDTH];
   VSTORE(words, word);
@@ -116,9 +119,9 @@ inline void scatter(vuint words, vint pixels, vint wanted, __global uint *image)
 }
 
 // Follows the rays of listed pixels, which lie in tiles with the given bins.
-inline void cast_listed(const PixelList *list, ulong bins, const Point origin, __global const int *offsets,
-                        __global const char *voxels, __global const float *nearest, __global float *depth,
-                        __global uint *normals, const CameraArgs camera, const TransformArgs T_W_D,
+inline void cast_listed(const PixelList* list, ulong bins, const Point origin, __global const int* offsets,
+                        __global const char* voxels, __global const float* nearest, __global float* depth,
+                        __global uint* normals, const CameraArgs camera, const TransformArgs T_W_D,
                         const GridArgs grid, const RayRangeArgs range) {
   for (int i = 0; i < list->count; i += SIMD_WIDTH) {
     const vint listed = i + LANE_INDICES < list->count;
@@ -130,14 +133,14 @@ inline void cast_listed(const PixelList *list, ulong bins, const Point origin, _
     const Surface surface =
         find_surface(march.rays, march.hit_t, march.hit_t > 0.0f, origin, offsets, voxels, grid);
     const vint indices = pixel_indices(column, row, camera);
-    scatter(depth_bits(surface), indices, surface.known, (__global uint *)depth);
+    scatter(depth_bits(surface), indices, surface.known, (__global uint*)depth);
     scatter(normal_bits(surface, T_W_D), indices, surface.known, normals);
   }
 }
 
 // depth: metres, 0 = none; normals: towards free space, in frame D
-__kernel void raycast(__global const int *offsets, __global const char *voxels, __global const float *nearest,
-                      __global const uint *occupied, __global float *depth, __global uint *normals,
+__kernel void raycast(__global const int* offsets, __global const char* voxels, __global const float* nearest,
+                      __global const uint* occupied, __global float* depth, __global uint* normals,
                       CameraArgs camera, TransformArgs T_W_D, GridArgs grid, RayRangeArgs range) {
   const int x = get_global_id(0) * (PATCHES * RAY_STRIDE * PATCH_COLUMNS);
   const int y = get_global_id(1) * (RAY_STRIDE * SIMD_WIDTH / PATCH_COLUMNS);
@@ -175,8 +178,10 @@ __kernel void raycast(__global const int *offsets, __global const char *voxels, 
       append(&missing, column, row, in_view & surfaces[0].known & NOT(surfaces[k].known));
     }
     for (int k = 0; k < PATCH_RAYS; k += RAY_STRIDE) {
-      store_surfaces(surfaces[k], surfaces[k + 1], patch_x, y + k / RAY_STRIDE, depth, normals, camera, T_W_D);
+      store_surfaces(surfaces[k], surfaces[k + 1], patch_x, y + k / RAY_STRIDE, depth, normals, camera,
+                     T_W_D);
     }
   }
-  cast_listed(&missing, all_bins, origin, offsets, voxels, nearest, depth, normals, camera, T_W_D, grid, range);
+  cast_listed(&missing, all_bins, origin, offsets, voxels, nearest, depth, normals, camera, T_W_D, grid,
+              range);
 }

@@ -1,8 +1,8 @@
 // Trilinear interpolation of the distance. Coordinates are voxels from the first voxel of the window.
 #include "shared/window.h"
 
-// Along one axis, of the two voxels around a coordinate: the first one's place in its block, the second's, and both their
-// blocks' in the window.
+// Along one axis, of the two voxels around a coordinate: the first one's place in its block, the second's,
+// and both their blocks' in the window.
 typedef struct {
   vint in_block[2], block[2];
   vint crosses;  // whether the second voxel lies in another block
@@ -22,10 +22,10 @@ inline AxisNeighbours axis_neighbours(vint voxel, int axis, const GridArgs grid)
   return result;
 }
 
-// Slots of the blocks of a cell's corners, numbered by the axes in which they are the second voxel (bit 0: x, 1: y, 2: z).
-// Looked up only where the cell crosses into another block along all of these.
-inline void find_slots(const AxisNeighbours axes[3], vint inside, __global const int *offsets, int blocks_per_axis,
-                       vint slots[8]) {
+// Slots of the blocks of a cell's corners, numbered by the axes in which they are the second voxel (bit 0: x,
+// 1: y, 2: z). Looked up only where the cell crosses into another block along all of these.
+inline void find_slots(const AxisNeighbours axes[3], vint inside, __global const int* offsets,
+                       int blocks_per_axis, vint slots[8]) {
 #pragma unroll
   for (int corner = 0; corner < 8; ++corner) {
     vint slot = -1, own = inside;
@@ -36,23 +36,24 @@ inline void find_slots(const AxisNeighbours axes[3], vint inside, __global const
       own &= axes[i].crosses;
     }
     if (ANY(own)) {
-      const vint address = axes[0].block[corner & 1] +
-                           blocks_per_axis * (axes[1].block[corner >> 1 & 1] + blocks_per_axis * axes[2].block[corner >> 2]);
+      const vint address =
+          axes[0].block[corner & 1] +
+          blocks_per_axis * (axes[1].block[corner >> 1 & 1] + blocks_per_axis * axes[2].block[corner >> 2]);
       slot = select(slot, slot_at(address, own, offsets), own);
     }
     slots[corner] = slot;
   }
 }
 
-// Trilinear interpolation of the distance at p, in steps of the distance byte, and its gradient in steps a voxel.
-// known: 0 where one of the eight voxels is chi.
+// Trilinear interpolation of the distance at p, in steps of the distance byte, and its gradient in steps a
+// voxel. known: 0 where one of the eight voxels is chi.
 typedef struct {
   vfloat value, gradient_x, gradient_y, gradient_z;
   vint known;
 } Sample;
 
-inline Sample interpolate(vfloat px, vfloat py, vfloat pz, vint active, __global const int *offsets,
-                          __global const char *voxels, const GridArgs grid) {
+inline Sample interpolate(vfloat px, vfloat py, vfloat pz, vint active, __global const int* offsets,
+                          __global const char* voxels, const GridArgs grid) {
   const vint vx = TO_VINT(px), vy = TO_VINT(py), vz = TO_VINT(pz);
   const AxisNeighbours axes[3] = {axis_neighbours(vx, 0, grid), axis_neighbours(vy, 1, grid),
                                   axis_neighbours(vz, 2, grid)};
@@ -71,7 +72,8 @@ inline Sample interpolate(vfloat px, vfloat py, vfloat pz, vint active, __global
     const vint first = four << 24 >> 24;
     vint second = four << 16 >> 24;
     if (any_crosses_x) {
-      second = select(second, GATHER_BYTES(voxels, distances_of(slots[i + 1]) + row_in_block), axes[0].crosses);
+      second =
+          select(second, GATHER_BYTES(voxels, distances_of(slots[i + 1]) + row_in_block), axes[0].crosses);
     }
     sample.known &= (slots[i] >= 0) & (slots[i + 1] >= 0) & (first != TSDF_CHI) & (second != TSDF_CHI);
     corner[i] = TO_VFLOAT(first);

@@ -1,17 +1,18 @@
-// Depth images of a moving rolling shutter to what the sensor would have seen all at once, at the stamp. Depth 0 = none.
-// A work-item takes SIMD_WIDTH pixels of a row.
+// Depth images of a moving rolling shutter to what the sensor would have seen all at once, at the stamp.
+// Depth 0 = none. A work-item takes SIMD_WIDTH pixels of a row.
 #include "shared/image.h"
 
-// With the sensor moving at (rotation, velocity), the point p that a row saw at `time_s` before the stamp lies at
-// p + time_s * (rotation x p + velocity) in the sensor's frame at the stamp. The pixel of p, the nearest, is found from
-// the depth at the pixel itself, then once more from the depth found there.
-__kernel void compensate_motion(__global const float *depth, __global float *compensated, CameraArgs camera,
+// With the sensor moving at (rotation, velocity), the point p that a row saw at `time_s` before the stamp
+// lies at p + time_s * (rotation x p + velocity) in the sensor's frame at the stamp. The pixel of p, the
+// nearest, is found from the depth at the pixel itself, then once more from the depth found there.
+__kernel void compensate_motion(__global const float* depth, __global float* compensated, CameraArgs camera,
                                 SensorMotionArgs motion) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
   if (x >= camera.width) return;
   const float time_s = motion.readout_s * ((y + 0.5f) / camera.height - 1.0f) - motion.stamp_delay_s;
-  const float3 r = time_s * (float3)(motion.rotation_rad_s[0], motion.rotation_rad_s[1], motion.rotation_rad_s[2]);
+  const float3 r =
+      time_s * (float3)(motion.rotation_rad_s[0], motion.rotation_rad_s[1], motion.rotation_rad_s[2]);
   const float3 t = time_s * (float3)(motion.velocity_m_s[0], motion.velocity_m_s[1], motion.velocity_m_s[2]);
   const vfloat ray_x = (TO_VFLOAT(x + LANE_INDICES) - camera.cx) / camera.fx;
   const float ray_y = ((float)y - camera.cy) / camera.fy;

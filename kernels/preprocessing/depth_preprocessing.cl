@@ -1,5 +1,5 @@
-// Depth images to clean depth in metres, pyramid and normals. Depth 0 = none. A work-item takes SIMD_WIDTH pixels of a
-// row, or one tile (max_tiles).
+// Depth images to clean depth in metres, pyramid and normals. Depth 0 = none. A work-item takes SIMD_WIDTH
+// pixels of a row, or one tile (max_tiles).
 #include "shared/image.h"
 #include "shared/normal.h"
 
@@ -9,7 +9,7 @@ inline vfloat within_range(vfloat depth_m, vint x, const CameraArgs camera, cons
 }
 
 // Without the sensor's systematic error, if the program is built with -DCORRECTED.
-inline vfloat corrected(vfloat depth_m, __global const float *offsets) {
+inline vfloat corrected(vfloat depth_m, __global const float* offsets) {
 #ifdef CORRECTED
   return depth_m / (1.0f + depth_m * VLOAD(offsets));
 #else
@@ -19,18 +19,19 @@ inline vfloat corrected(vfloat depth_m, __global const float *offsets) {
 
 // input: width * height values without padding, and SIMD_WIDTH more of any kind.
 // offsets: an image of what the inverse depth lacks, read with -DCORRECTED.
-__kernel void depth_to_metres_u16(__global const ushort *input, __global const float *offsets, __global float *depth,
-                                  CameraArgs camera, RangeArgs range) {
+__kernel void depth_to_metres_u16(__global const ushort* input, __global const float* offsets,
+                                  __global float* depth, CameraArgs camera, RangeArgs range) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
   if (x >= camera.width) return;
   const int index = pixel_index(x, y, camera);
-  const vfloat value = corrected(TO_VFLOAT(VLOAD(input + y * camera.width + x)) * range.unit_m, offsets + index);
+  const vfloat value =
+      corrected(TO_VFLOAT(VLOAD(input + y * camera.width + x)) * range.unit_m, offsets + index);
   VSTORE(within_range(value, x + LANE_INDICES, camera, range), depth + index);
 }
 
-__kernel void depth_to_metres_f32(__global const float *input, __global const float *offsets, __global float *depth,
-                                  CameraArgs camera, RangeArgs range) {
+__kernel void depth_to_metres_f32(__global const float* input, __global const float* offsets,
+                                  __global float* depth, CameraArgs camera, RangeArgs range) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
   if (x >= camera.width) return;
@@ -39,8 +40,9 @@ __kernel void depth_to_metres_f32(__global const float *input, __global const fl
   VSTORE(within_range(value, x + LANE_INDICES, camera, range), depth + index);
 }
 
-// Averages neighbours in a 5x5 window, weighted by distance in the image and, with Tukey's biweight, in depth.
-__kernel void filter_bilateral(__global const float *depth, __global float *filtered, CameraArgs camera,
+// Averages neighbours in a 5x5 window, weighted by distance in the image and, with Tukey's biweight, in
+// depth.
+__kernel void filter_bilateral(__global const float* depth, __global float* filtered, CameraArgs camera,
                                SensorArgs sensor, BilateralArgs args) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
@@ -51,12 +53,13 @@ __kernel void filter_bilateral(__global const float *depth, __global float *filt
   vfloat sum = 0.0f;
   vfloat weights = 0.0f;
   for (int dy = max(-2, -y); dy <= min(2, camera.height - 1 - y); ++dy) {
-    __global const float *row = depth + pixel_index(x, y + dy, camera);
+    __global const float* row = depth + pixel_index(x, y + dy, camera);
     for (int dx = -2; dx <= 2; ++dx) {
       const vfloat neighbour = VLOAD(row + dx);
       const vfloat difference = neighbour - centre;
       const vfloat similarity = max(1.0f - difference * difference * scale, (vfloat)(0.0f));
-      const vfloat weight = args.spatial_weights[abs(dx)] * args.spatial_weights[abs(dy)] * similarity * similarity;
+      const vfloat weight =
+          args.spatial_weights[abs(dx)] * args.spatial_weights[abs(dy)] * similarity * similarity;
       sum += weight * neighbour;
       weights += weight;
     }
@@ -65,14 +68,14 @@ __kernel void filter_bilateral(__global const float *depth, __global float *filt
 }
 
 // Pixels of the half size image: the mean of those of a pixel's 2x2 that lie near the closest one.
-__kernel void halve_depth(__global const float *depth, __global float *half_depth, CameraArgs camera,
+__kernel void halve_depth(__global const float* depth, __global float* half_depth, CameraArgs camera,
                           CameraArgs half_camera, SensorArgs sensor, float cutoff_sigmas) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
   if (x >= half_camera.width) return;
   vfloat four[4];
   for (int i = 0; i < 2; ++i) {
-    __global const float *row = depth + pixel_index(2 * x, 2 * y + i, camera);
+    __global const float* row = depth + pixel_index(2 * x, 2 * y + i, camera);
     const vfloat first = VLOAD(row), second = VLOAD(row + SIMD_WIDTH);
     four[2 * i] = EVEN_LANES(first, second);
     four[2 * i + 1] = ODD_LANES(first, second);
@@ -90,10 +93,10 @@ __kernel void halve_depth(__global const float *depth, __global float *half_dept
   VSTORE(select((vfloat)(0.0f), sum / count, some), half_depth + pixel_index(x, y, half_camera));
 }
 
-// Unit normals towards the camera from a plane fitted to the depth's 3x3 neighbours NORMAL_STEP pixels apart; 0 where a
-// neighbour is missing or the depth jumps.
+// Unit normals towards the camera from a plane fitted to the depth's 3x3 neighbours NORMAL_STEP pixels apart;
+// 0 where a neighbour is missing or the depth jumps.
 #define NORMAL_STEP 2
-__kernel void compute_normals(__global const float *depth, __global uint *normals, CameraArgs camera,
+__kernel void compute_normals(__global const float* depth, __global uint* normals, CameraArgs camera,
                               float max_relative_step) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
@@ -124,8 +127,8 @@ __kernel void compute_normals(__global const float *depth, __global uint *normal
 }
 
 // The largest depth of each 8x8 tile.
-__kernel void max_tiles(__global const float *depth, __global float *tiles, CameraArgs camera, int tile_columns,
-                        int tile_count) {
+__kernel void max_tiles(__global const float* depth, __global float* tiles, CameraArgs camera,
+                        int tile_columns, int tile_count) {
   const int tile = get_global_id(0);
   if (tile >= tile_count) return;
   const int x = (tile % tile_columns) * DEPTH_TILE;

@@ -14,8 +14,8 @@ inline vfloat accuracy_at(vfloat cosine, vfloat depth_m, const CameraArgs camera
   return axial_m * rsqrt(axial_m * axial_m + lateral_m * lateral_m * squared_tangent);
 }
 
-__kernel void pack_measurements(__global const float *depth, __global const uint *normals,
-                                __global const float *weights, __global uint *measurements, CameraArgs camera,
+__kernel void pack_measurements(__global const float* depth, __global const uint* normals,
+                                __global const float* weights, __global uint* measurements, CameraArgs camera,
                                 SensorArgs sensor, float depth_step_m) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);

@@ -3,10 +3,10 @@
 //   depth_C  of the other camera, metres
 #include "shared/image.h"
 
-// A work-item moves SIMD_WIDTH pixels of a row of the depth camera to the other, where each covers footprint x footprint
-// pixels; the nearest wins. depth_C: float bits, NO_DEPTH_BITS before.
-__kernel void splat_depth(__global const float *depth, __global int *depth_C, CameraArgs camera, CameraArgs other_camera,
-                          TransformArgs T_C_D, int footprint) {
+// A work-item moves SIMD_WIDTH pixels of a row of the depth camera to the other, where each covers footprint
+// x footprint pixels; the nearest wins. depth_C: float bits, NO_DEPTH_BITS before.
+__kernel void splat_depth(__global const float* depth, __global int* depth_C, CameraArgs camera,
+                          CameraArgs other_camera, TransformArgs T_C_D, int footprint) {
   const int x = get_global_id(0) * SIMD_WIDTH;
   const int y = get_global_id(1);
   if (x >= camera.width) return;
@@ -17,8 +17,10 @@ __kernel void splat_depth(__global const float *depth, __global int *depth_C, Ca
   const vint good = (z > 0.0f) & (z_C > 0.0f);
   if (!ANY(good)) return;
   const float beside = 0.5f * (footprint - 1);
-  const vfloat u = other_camera.fx * (rotated(T_C_D, 0, x_D, y_D, z) + T_C_D.translation[0]) / z_C + other_camera.cx - beside;
-  const vfloat v = other_camera.fy * (rotated(T_C_D, 1, x_D, y_D, z) + T_C_D.translation[1]) / z_C + other_camera.cy - beside;
+  const vfloat u = other_camera.fx * (rotated(T_C_D, 0, x_D, y_D, z) + T_C_D.translation[0]) / z_C +
+                   other_camera.cx - beside;
+  const vfloat v = other_camera.fy * (rotated(T_C_D, 1, x_D, y_D, z) + T_C_D.translation[1]) / z_C +
+                   other_camera.cy - beside;
   // Far outside, integers would not hold them.
   int columns[SIMD_WIDTH], rows[SIMD_WIDTH], bits[SIMD_WIDTH];
   VSTORE(TO_VINT(rint(clamp(u, -(float)footprint, (float)other_camera.width))), columns);

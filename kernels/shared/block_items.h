@@ -6,8 +6,9 @@
 
 #define DITHER_STEP 0x9e3779b9u
 
-// Phase of a voxel's dither: spread by a hash over the blocks, by the golden ratio along a block's voxels and over the
-// frames by DITHER_STEP, so that the rounding errors of one voxel cancel over the frames faster than independent draws would.
+// Phase of a voxel's dither: spread by a hash over the blocks, by the golden ratio along a block's voxels and
+// over the frames by DITHER_STEP, so that the rounding errors of one voxel cancel over the frames faster than
+// independent draws would.
 inline uint dither_phase(int voxel, int3 block, int frame) {
   uint hash = (uint)(block.x * 73856093 ^ block.y * 19349669 ^ block.z * 83492791);
   hash = (hash ^ (hash >> 15)) * 0x85ebca6bu;

@@ -18,14 +18,14 @@ inline int block_address(int3 block, const GridArgs grid) {
 }
 
 // The slot with a number of the groups in view, or -1 if there is none.
-inline int numbered_slot(int number, __global const int *groups, int group_count, int slots) {
+inline int numbered_slot(int number, __global const int* groups, int group_count, int slots) {
   if (number >= group_count * SLOTS_PER_GROUP) return -1;
   const int slot = groups[number / SLOTS_PER_GROUP] * SLOTS_PER_GROUP + number % SLOTS_PER_GROUP;
   return slot < slots ? slot : -1;
 }
 
 // The work-item's slot of the groups in view, or -1 if it has none.
-inline int slot_in_view(__global const int *groups, int group_count, int slots) {
+inline int slot_in_view(__global const int* groups, int group_count, int slots) {
   return numbered_slot(get_global_id(0), groups, group_count, slots);
 }
 

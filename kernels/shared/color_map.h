@@ -1,11 +1,12 @@
-// Colours in the block-sparse map: blue, green, red and weight a voxel, from the lowest byte on. Weight 0 = no colour.
+// Colours in the block-sparse map: blue, green, red and weight a voxel, from the lowest byte on. Weight 0 =
+// no colour.
 #include "shared/block_map.h"
 
 inline float4 unpack_color(uint packed) {
   return convert_float4((uint4)(packed, packed >> 8, packed >> 16, packed >> 24) & 255u);
 }
 
-inline float4 color_of_voxel(int3 voxel, __global const int *offsets, __global const uint *colors,
+inline float4 color_of_voxel(int3 voxel, __global const int* offsets, __global const uint* colors,
                              const GridArgs grid) {
   const int address = block_address(voxel >> BLOCK_SIZE_LOG2, grid);
   const int slot = address < 0 ? BLOCK_EMPTY : offsets[address];
@@ -13,9 +14,9 @@ inline float4 color_of_voxel(int3 voxel, __global const int *offsets, __global c
   return unpack_color(colors[block_colors(slot) + voxel_number(voxel & (BLOCK_SIZE - 1))]);
 }
 
-// Colour at a point given in voxels: the mean of the eight voxels around it that have one, the nearer and the surer
-// the more. Component w is 0 if none has.
-inline float4 sample_color(float3 p_vox, __global const int *offsets, __global const uint *colors,
+// Colour at a point given in voxels: the mean of the eight voxels around it that have one, the nearer and the
+// surer the more. Component w is 0 if none has.
+inline float4 sample_color(float3 p_vox, __global const int* offsets, __global const uint* colors,
                            const GridArgs grid) {
   const float3 lowest = floor(p_vox);
   const float3 fraction = p_vox - lowest;
@@ -31,9 +32,10 @@ inline float4 sample_color(float3 p_vox, __global const int *offsets, __global c
   return sum.w > least_weight ? (float4)(sum.xyz / sum.w, sum.w) : (float4)(0.0f);
 }
 
-// The same, and where those eight have none the mean of the voxels up to NEARBY_VOX away, for pictures and meshes.
+// The same, and where those eight have none the mean of the voxels up to NEARBY_VOX away, for pictures and
+// meshes.
 #define NEARBY_VOX 2
-inline float4 sample_color_nearby(float3 p_vox, __global const int *offsets, __global const uint *colors,
+inline float4 sample_color_nearby(float3 p_vox, __global const int* offsets, __global const uint* colors,
                                   const GridArgs grid) {
   const float4 own = sample_color(p_vox, offsets, colors, grid);
   if (own.w > 0.0f) return own;

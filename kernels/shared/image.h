@@ -3,7 +3,9 @@
 #include "shared/types.h"
 
 inline int pixel_index(int x, int y, const CameraArgs camera) { return IMAGE_GUARD + y * camera.pitch + x; }
-inline vint pixel_indices(vint x, vint y, const CameraArgs camera) { return IMAGE_GUARD + y * camera.pitch + x; }
+inline vint pixel_indices(vint x, vint y, const CameraArgs camera) {
+  return IMAGE_GUARD + y * camera.pitch + x;
+}
 
 inline float3 rotate_point(const TransformArgs T, float3 p) {
   return (float3)(T.rotation[0] * p.x + T.rotation[1] * p.y + T.rotation[2] * p.z,
@@ -15,15 +17,16 @@ inline float3 transform_point(const TransformArgs T, float3 p) {
   return rotate_point(T, p) + (float3)(T.translation[0], T.translation[1], T.translation[2]);
 }
 
-// Whether a sphere, given in the camera's frame, reaches into what the camera sees: ahead of it, and on the inner side of the
-// planes through its image's borders.
+// Whether a sphere, given in the camera's frame, reaches into what the camera sees: ahead of it, and on the
+// inner side of the planes through its image's borders.
 inline bool sphere_in_view(float3 centre, float radius, const CameraArgs camera) {
   const float left = camera.cx + 1.0f, right = camera.width - camera.cx;
   const float top = camera.cy + 1.0f, bottom = camera.height - camera.cy;
   const float x = camera.fx * centre.x, y = camera.fy * centre.y, z = centre.z;
   const float fx2 = camera.fx * camera.fx, fy2 = camera.fy * camera.fy;
   return z > -radius && x + left * z > -radius * sqrt(fx2 + left * left) &&
-         right * z - x > -radius * sqrt(fx2 + right * right) && y + top * z > -radius * sqrt(fy2 + top * top) &&
+         right * z - x > -radius * sqrt(fx2 + right * right) &&
+         y + top * z > -radius * sqrt(fy2 + top * top) &&
          bottom * z - y > -radius * sqrt(fy2 + bottom * bottom);
 }
 

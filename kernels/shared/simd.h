@@ -8,13 +8,14 @@
 #undef inline
 #define inline static __attribute__((always_inline))
 
-// A vector of global memory whose address is a multiple of its size. vload and vstore assume less: PoCL stores bytes one by one.
-#define ALIGNED(type, pointer) (*(__global type *)(pointer))
+// A vector of global memory whose address is a multiple of its size. vload and vstore assume less: PoCL
+// stores bytes one by one.
+#define ALIGNED(type, pointer) (*(__global type*)(pointer))
 
 // Asks for the cache line that a byte of global memory lies in. PoCL's prefetch() does nothing.
 #define CACHE_LINE 64
 #if SIMD_WIDTH > 1 && defined(POCL_DEVICE_ADDRESS_BITS)
-#define PREFETCH(pointer) __builtin_prefetch((const void *)(size_t)(pointer))
+#define PREFETCH(pointer) __builtin_prefetch((const void*)(size_t)(pointer))
 #else
 #define PREFETCH(pointer)
 #endif
@@ -45,7 +46,7 @@ typedef uchar vuchar;
 #define GATHER(type, pointer, i) ((pointer)[i])
 #define GATHER_BYTES(pointer, i) ((int)(pointer)[i])
 #define GATHER_FOUR_BYTES(pointer, i) as_int(vload4(0, (pointer) + (i)))
-inline uint gather_from_memory(__global const uint *words, const int *index) { return words[*index]; }
+inline uint gather_from_memory(__global const uint* words, const int* index) { return words[*index]; }
 #define SUM_LANES(v) (v)
 #define LEAST(v) (v)
 #define FIRST_LANE(v) (v)
@@ -72,9 +73,9 @@ typedef SIMD_JOIN(uchar, SIMD_WIDTH) vuchar;
 #define NOT(mask) (~(mask))
 #if SIMD_WIDTH == 8
 #define LANE_INDICES ((vint)(0, 1, 2, 3, 4, 5, 6, 7))
-#define EACH_LANE(type, of, p, i)                                                                                  \
-  ((type)(of(p, (i).s0), of(p, (i).s1), of(p, (i).s2), of(p, (i).s3), of(p, (i).s4), of(p, (i).s5), of(p, (i).s6), \
-          of(p, (i).s7)))
+#define EACH_LANE(type, of, p, i)                                                                   \
+  ((type)(of(p, (i).s0), of(p, (i).s1), of(p, (i).s2), of(p, (i).s3), of(p, (i).s4), of(p, (i).s5), \
+          of(p, (i).s6), of(p, (i).s7)))
 #define WORDS_AT(p, i) ((vuint)(p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]))
 inline bool any_lane(int8 mask) { return as_long(convert_char8(mask)) != 0; }
 inline float sum_lanes(float8 v) {
@@ -89,13 +90,13 @@ inline float least_lane(float8 v) {
 }
 #elif SIMD_WIDTH == 16
 #define LANE_INDICES ((vint)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
-#define EACH_LANE(type, of, p, i)                                                                                  \
-  ((type)(of(p, (i).s0), of(p, (i).s1), of(p, (i).s2), of(p, (i).s3), of(p, (i).s4), of(p, (i).s5), of(p, (i).s6), \
-          of(p, (i).s7), of(p, (i).s8), of(p, (i).s9), of(p, (i).sa), of(p, (i).sb), of(p, (i).sc), of(p, (i).sd), \
-          of(p, (i).se), of(p, (i).sf)))
-#define WORDS_AT(p, i)                                                                                          \
-  ((vuint)(p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]], p[i[8]], p[i[9]], p[i[10]], \
-           p[i[11]], p[i[12]], p[i[13]], p[i[14]], p[i[15]]))
+#define EACH_LANE(type, of, p, i)                                                                   \
+  ((type)(of(p, (i).s0), of(p, (i).s1), of(p, (i).s2), of(p, (i).s3), of(p, (i).s4), of(p, (i).s5), \
+          of(p, (i).s6), of(p, (i).s7), of(p, (i).s8), of(p, (i).s9), of(p, (i).sa), of(p, (i).sb), \
+          of(p, (i).sc), of(p, (i).sd), of(p, (i).se), of(p, (i).sf)))
+#define WORDS_AT(p, i)                                                                               \
+  ((vuint)(p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]], p[i[8]], p[i[9]], \
+           p[i[10]], p[i[11]], p[i[12]], p[i[13]], p[i[14]], p[i[15]]))
 inline bool any_lane(int16 mask) {
   const long2 lanes = as_long2(convert_char16(mask));
   return (lanes.x | lanes.y) != 0;
@@ -117,15 +118,16 @@ inline float least_lane(float16 v) {
 #define GATHER(type, pointer, i) EACH_LANE(type, ELEMENT, pointer, i)
 // Signed bytes, as integers. A gather of words and shifts are faster on CPUs than one of bytes.
 #define GATHER_BYTES(pointer, i) \
-  (GATHER(vint, (__global const int *)(pointer), (i) >> 2) << (24 - (((i) & 3) << 3)) >> 24)
+  (GATHER(vint, (__global const int*)(pointer), (i) >> 2) << (24 - (((i)&3) << 3)) >> 24)
 // Four bytes from each place on, the first one the lowest of a word.
 typedef struct __attribute__((packed)) {
   int word;
 } UnalignedInt;
-#define FOUR_BYTES(pointer, i) (((__global const UnalignedInt *)((pointer) + (i)))->word)
+#define FOUR_BYTES(pointer, i) (((__global const UnalignedInt*)((pointer) + (i)))->word)
 #define GATHER_FOUR_BYTES(pointer, i) EACH_LANE(vint, FOUR_BYTES, pointer, i)
-// Words at indices that stand in memory. Volatile, else PoCL takes the CPU's gather instruction, which is slower.
-inline vuint gather_from_memory(__global const volatile uint *words, const int *indices) {
+// Words at indices that stand in memory. Volatile, else PoCL takes the CPU's gather instruction, which is
+// slower.
+inline vuint gather_from_memory(__global const volatile uint* words, const int* indices) {
   return WORDS_AT(words, indices);
 }
 #define SUM_LANES(v) sum_lanes(v)

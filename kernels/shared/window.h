@@ -17,7 +17,7 @@ inline vint window_address(vint x, vint y, vint z, const GridArgs grid) {
 }
 
 // Slots of the blocks at the addresses; -1 where there is none, or where not `inside`.
-inline vint slot_at(vint address, vint inside, __global const int *offsets) {
+inline vint slot_at(vint address, vint inside, __global const int* offsets) {
   return select((vint)(-1), GATHER(vint, offsets, select((vint)(0), address, inside)), inside);
 }
 

@@ -1,9 +1,10 @@
 // Layout of a batch of blocks, gathered with a border so that a block needs no other one.
 //   volume     (BLOCK_SIZE + 3)^3 distance bytes a block: voxels -1 to BLOCK_SIZE + 1 in each axis
 //   row_masks  known and inside (negative) voxels of a row of the volume: bit x + 1 is voxel x
-//   rows       a row of the block proper, bit x is voxel x: the voxels whose edge in x, in y and in z carries a vertex,
-//              and the number of the row's first vertex in its block. A row's vertices are those of its edges in x,
-//              then in y, then in z.
+//   rows       a row of the block proper, bit x is voxel x: the voxels whose edge in x, in y and in z carries
+//   a vertex,
+//              and the number of the row's first vertex in its block. A row's vertices are those of its edges
+//              in x, then in y, then in z.
 #include "shared/block_map.h"
 
 #define ROWS (BLOCK_SIZE * BLOCK_SIZE)
@@ -20,18 +21,19 @@ inline uint first_on_axis(uint4 row, int axis) {
 }
 
 // The masks of the row (y, z) of a block.
-inline __global const ulong2 *masks_of_row(__global const ulong2 *row_masks, int block, int y, int z) {
+inline __global const ulong2* masks_of_row(__global const ulong2* row_masks, int block, int y, int z) {
   return row_masks + block * PADDED_ROWS + (y + 1) + PADDED_SIZE * (z + 1);
 }
 
-// Cells between the row and its neighbours at y + 1 and z + 1 whose eight corners are known: bit x + 1 is cell x.
-inline ulong complete_cells(__global const ulong2 *row) {
+// Cells between the row and its neighbours at y + 1 and z + 1 whose eight corners are known: bit x + 1 is
+// cell x.
+inline ulong complete_cells(__global const ulong2* row) {
   const ulong known = row[0].x & row[1].x & row[PADDED_SIZE].x & row[PADDED_SIZE + 1].x;
   return known & known >> 1;
 }
 
 // The inside voxels of the four rows around a row of cells.
-inline ulong4 inside_corners(__global const ulong2 *row) {
+inline ulong4 inside_corners(__global const ulong2* row) {
   return (ulong4)(row[0].y, row[1].y, row[PADDED_SIZE].y, row[PADDED_SIZE + 1].y);
 }
 

@@ -28,7 +28,7 @@ inline ulong high_bits(ulong bytes) {
   return ((bytes >> 7 & 0x0101010101010101UL) * 0x0102040810204080UL) >> 56;
 }
 
-inline char known_distance(__global const char *voxels, int slot, int voxel, int min_certainty) {
+inline char known_distance(__global const char* voxels, int slot, int voxel, int min_certainty) {
   if (slot < 0) return TSDF_CHI;
   const uchar certainty = as_uchar(voxels[block_certainties(slot) + voxel]);
   return certainty < min_certainty ? TSDF_CHI : voxels[block_distances(slot) + voxel];
@@ -39,11 +39,11 @@ inline ulong2 mask_of_voxel(char distance, int bit) {
 }
 
 // Copies the block's own BLOCK_SIZE voxels; the masks' bit 0 is the first of them.
-inline ulong2 gather_row(__global char *out, __global const char *voxels, int slot, int row, int min_certainty) {
+inline ulong2 gather_row(__global char* out, __global const char* voxels, int slot, int row,
+                         int min_certainty) {
   ulong2 masks = 0;
   for (int x = 0; x < BLOCK_SIZE; x += PIECE) {
-    const PieceUchars certainties =
-        AS_UCHARS(LOAD_PIECE(0, voxels + block_certainties(slot) + row + x));
+    const PieceUchars certainties = AS_UCHARS(LOAD_PIECE(0, voxels + block_certainties(slot) + row + x));
     PieceChars distances = LOAD_PIECE(0, voxels + block_distances(slot) + row + x);
     distances = select(distances, (PieceChars)(TSDF_CHI), certainties < (PieceUchars)(min_certainty));
     STORE_PIECE(distances, 0, out + x);
@@ -53,19 +53,22 @@ inline ulong2 gather_row(__global char *out, __global const char *voxels, int sl
   return masks;
 }
 
-inline ulong2 fill_row(__global char *out) {
+inline ulong2 fill_row(__global char* out) {
   for (int x = 0; x < BLOCK_SIZE; ++x) out[x] = TSDF_CHI;
   return 0;
 }
 
-inline int slot_of(__global const int *offsets, int3 block, GridArgs grid) {
+inline int slot_of(__global const int* offsets, int3 block, GridArgs grid) {
   const int address = block_address(block, grid);
   return address < 0 ? BLOCK_EMPTY : offsets[address];
 }
 
-// A row of the volume, out of the blocks before, in and after it. `row` is its first voxel's number in the block.
-inline ulong2 gather_padded_row(__global char *out, __global const char *voxels, int3 slots, int row, int min_certainty) {
-  const ulong2 own = slots.y < 0 ? fill_row(out + 1) : gather_row(out + 1, voxels, slots.y, row, min_certainty);
+// A row of the volume, out of the blocks before, in and after it. `row` is its first voxel's number in the
+// block.
+inline ulong2 gather_padded_row(__global char* out, __global const char* voxels, int3 slots, int row,
+                                int min_certainty) {
+  const ulong2 own =
+      slots.y < 0 ? fill_row(out + 1) : gather_row(out + 1, voxels, slots.y, row, min_certainty);
   out[0] = known_distance(voxels, slots.x, row + BLOCK_SIZE - 1, min_certainty);
   out[BLOCK_SIZE + 1] = known_distance(voxels, slots.z, row, min_certainty);
   out[BLOCK_SIZE + 2] = known_distance(voxels, slots.z, row + 1, min_certainty);
@@ -73,8 +76,8 @@ inline ulong2 gather_padded_row(__global char *out, __global const char *voxels,
          mask_of_voxel(out[BLOCK_SIZE + 2], BLOCK_SIZE + 2);
 }
 
-__kernel void gather_blocks(__global char *volume, __global ulong2 *row_masks, __global const char *voxels,
-                            __global const int *offsets, __global const MeshBlockArgs *blocks, int count,
+__kernel void gather_blocks(__global char* volume, __global ulong2* row_masks, __global const char* voxels,
+                            __global const int* offsets, __global const MeshBlockArgs* blocks, int count,
                             int min_certainty, GridArgs grid) {
   const int i = get_global_id(0);
   if (i >= count * PADDED_SIZE) return;

@@ -1,5 +1,5 @@
-// Where the voxels of a block lie in the depth image. A pixel's coordinates times its depth, and the depth, are linear in
-// the voxel's place in the block.
+// Where the voxels of a block lie in the depth image. A pixel's coordinates times its depth, and the depth,
+// are linear in the voxel's place in the block.
 #include "shared/block_items.h"
 #include "shared/image.h"
 
@@ -18,7 +18,7 @@ typedef struct {
 } BlockProjection;
 
 // By which (u z, v z, z) of voxels differ from those of voxel 0.
-inline Points from_first_voxel(const BlockProjection *p, vint voxel) {
+inline Points from_first_voxel(const BlockProjection* p, vint voxel) {
   const vfloat i = TO_VFLOAT(voxel & (BLOCK_SIZE - 1));
   const vfloat j = TO_VFLOAT(voxel >> BLOCK_SIZE_LOG2 & (BLOCK_SIZE - 1));
   const vfloat k = TO_VFLOAT(voxel >> (2 * BLOCK_SIZE_LOG2));
@@ -50,12 +50,14 @@ inline BlockProjection block_projection(int3 block, const TransformArgs T_D_W, c
   return p;
 }
 
-// Indices of the pixels that points (u z, v z, z) are seen at; 0, in the image's guard, where they are not in view.
+// Indices of the pixels that points (u z, v z, z) are seen at; 0, in the image's guard, where they are not in
+// view.
 inline vint pixels_of(Points scaled, const CameraArgs camera) {
   const vfloat per_z = 1.0f / scaled.z;
   const vfloat u = scaled.x * per_z;
   const vfloat v = scaled.y * per_z;
-  const vint in_view = (scaled.z > 0.0f) & (u >= 0.0f) & (u < camera.width) & (v >= 0.0f) & (v < camera.height);
+  const vint in_view =
+      (scaled.z > 0.0f) & (u >= 0.0f) & (u < camera.width) & (v >= 0.0f) & (v < camera.height);
   return select((vint)(0), pixel_indices(TO_VINT(u), TO_VINT(v), camera), in_view);
 }
 

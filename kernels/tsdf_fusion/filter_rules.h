@@ -1,8 +1,9 @@
 // The rules of fusion. FUSION_RULE: FUSION_AVERAGE, FUSION_WEIGHTED or FUSION_KALMAN (see types.h).
-// fuse_measurement() is what a measurement makes of a voxel, doubt() what is left of its certainty where the space is seen
-// to be free.
+// fuse_measurement() is what a measurement makes of a voxel, doubt() what is left of its certainty where the
+// space is seen to be free.
 //   certainty  a voxel's second byte, or the exact number before it is rounded to one
-//   axial      a measurement's variance if it were as accurate as can be, in units (see types.h); the variance itself is
+//   axial      a measurement's variance if it were as accurate as can be, in units (see types.h); the
+//   variance itself is
 //              axial / squared_accuracy
 #include "shared/simd.h"
 #include "shared/types.h"
@@ -11,7 +12,8 @@
 #endif
 
 typedef struct {
-  vfloat gain;  // how far the distance goes to the measured one, in (0, 1]; any number where the voxel is not known
+  vfloat gain;  // how far the distance goes to the measured one, in (0, 1]; any number where the voxel is not
+                // known
   vfloat certainty;
 } FilterStep;
 
@@ -25,7 +27,9 @@ inline FilterStep fuse_measurement(vint certainty, vint known, vfloat axial, vfl
   return step;
 }
 
-inline vfloat doubt(vint certainty, const FusionArgs args) { return TO_VFLOAT(certainty) * args.free_space_kept; }
+inline vfloat doubt(vint certainty, const FusionArgs args) {
+  return TO_VFLOAT(certainty) * args.free_space_kept;
+}
 
 #elif FUSION_RULE == FUSION_WEIGHTED
 
@@ -42,7 +46,9 @@ inline FilterStep fuse_measurement(vint certainty, vint known, vfloat axial, vfl
   return step;
 }
 
-inline vfloat doubt(vint certainty, const FusionArgs args) { return TO_VFLOAT(certainty) * args.free_space_kept; }
+inline vfloat doubt(vint certainty, const FusionArgs args) {
+  return TO_VFLOAT(certainty) * args.free_space_kept;
+}
 
 #else
 

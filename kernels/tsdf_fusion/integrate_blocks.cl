@@ -20,8 +20,8 @@ inline vuchar magnitude(vchar value) {
 
 // Which octant of its block a voxel lies in.
 #define HALF_BLOCK_LOG2 (BLOCK_SIZE_LOG2 - 1)
-#define OCTANT(voxel)                                                                                       \
-  (((voxel) >> HALF_BLOCK_LOG2 & 1) | ((voxel) >> (BLOCK_SIZE_LOG2 + HALF_BLOCK_LOG2) & 1) << 1 |           \
+#define OCTANT(voxel)                                                                             \
+  (((voxel) >> HALF_BLOCK_LOG2 & 1) | ((voxel) >> (BLOCK_SIZE_LOG2 + HALF_BLOCK_LOG2) & 1) << 1 | \
    ((voxel) >> (2 * BLOCK_SIZE_LOG2 + HALF_BLOCK_LOG2) & 1) << 2)
 #define LANE_OCTANT_BITS TO_VUCHAR((vint)(1) << OCTANT(LANE_INDICES))
 
@@ -33,16 +33,17 @@ inline int any_bits(vuchar bits) {
 }
 
 // Asks for the distances that a work-item will read.
-inline void prefetch_distances(int item, __global const char *voxels, __global const int *visible, int visible_count) {
+inline void prefetch_distances(int item, __global const char* voxels, __global const int* visible,
+                               int visible_count) {
   if (item / ITEMS_PER_BLOCK >= visible_count) return;
-  __global const char *distances =
+  __global const char* distances =
       voxels + block_distances(visible[item / ITEMS_PER_BLOCK]) + item % ITEMS_PER_BLOCK * ITEM_VOXELS;
   for (int i = 0; i < ITEM_VOXELS; i += CACHE_LINE) PREFETCH(distances + i);
 }
 
-__kernel void integrate_blocks(__global char *voxels, __global const int *visible, int visible_count,
-                               __global const int4 *block_indices, __global int *block_states,
-                               __global const uint *measurements, __global const uint *normals,
+__kernel void integrate_blocks(__global char* voxels, __global const int* visible, int visible_count,
+                               __global const int4* block_indices, __global int* block_states,
+                               __global const uint* measurements, __global const uint* normals,
                                CameraArgs camera, TransformArgs T_D_W, GridArgs grid, SensorArgs sensor,
                                FusionArgs args) {
   const int item = get_global_id(0);
@@ -52,8 +53,8 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
   const int slot = visible[entry];
   const int3 block = block_indices[slot].xyz;
   const float block_m = grid.voxel_size_m * BLOCK_SIZE;
-  __global char *distances = voxels + block_distances(slot);
-  __global uchar *certainties = (__global uchar *)voxels + block_certainties(slot);
+  __global char* distances = voxels + block_distances(slot);
+  __global uchar* certainties = (__global uchar*)voxels + block_certainties(slot);
   const float steps_per_m = TSDF_MAX / grid.truncation_m;
   const float free_steps_per_m = args.free_space_sigmas * steps_per_m;
   prefetch_distances(item + 1, voxels, visible, visible_count);
@@ -67,7 +68,8 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
   vuchar data = 0, octants = 0;
 
   for (int part = first_voxel; part < first_voxel + ITEM_VOXELS; part += PART_VOXELS) {
-    // All of a part's pixels are found before any is read, so that a CPU need not wait for one after the other.
+    // All of a part's pixels are found before any is read, so that a CPU need not wait for one after the
+    // other.
     const Points from_first_part = from_first_voxel(&projection, part);
     vint pixels[PART_VECTORS];
     for (int i = 0; i < PART_VECTORS; ++i) {
@@ -75,11 +77,11 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
     }
     for (int i = 0; i < PART_VECTORS; ++i) {
       const int voxel = part + i * SIMD_WIDTH;
-      const vuint word = gather_from_memory(measurements, (const int *)(pixels + i));
+      const vuint word = gather_from_memory(measurements, (const int*)(pixels + i));
       const Measurement measured = unpack_measurement(word, args.depth_step_m);
       const Points points = unscaled(sum_of(projection.first_part[i], from_first_part), camera);
-      const MeasuredDistance surface = measured_distance(points, measured, ray_length, measurements, normals, camera,
-                                                         grid.truncation_m, args.depth_step_m);
+      const MeasuredDistance surface = measured_distance(points, measured, ray_length, measurements, normals,
+                                                         camera, grid.truncation_m, args.depth_step_m);
       const vfloat steps = surface.distance_m * steps_per_m;
 
       vchar distance = ALIGNED(vchar, distances + voxel);
@@ -92,10 +94,12 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
         const vfloat axial_m = AXIAL_SIGMA_M(sensor, measured.depth_m) * surface.slope;
         const vint beyond = (steps - TSDF_MAX) * measured.accuracy > free_steps_per_m * axial_m;
         const vint freed = seen & beyond & known;
-        const vuint phase = DITHER_STEP * AS_VUINT(LANE_INDICES) + (phase_of_first + DITHER_STEP * (uint)voxel);
+        const vuint phase =
+            DITHER_STEP * AS_VUINT(LANE_INDICES) + (phase_of_first + DITHER_STEP * (uint)voxel);
         const vfloat random = TO_VFLOAT(AS_VINT(phase >> 8)) * (1.0f / 16777216.0f);
-        const FilterStep step = fuse_measurement(TO_VINT(old_byte), known, args.units_per_m2 * axial_m * axial_m,
-                                                 measured.accuracy * measured.accuracy, args);
+        const FilterStep step =
+            fuse_measurement(TO_VINT(old_byte), known, args.units_per_m2 * axial_m * axial_m,
+                             measured.accuracy * measured.accuracy, args);
         const vfloat base_steps = select(steps, old_steps, known);
         const vint fused = clamp(dithered(base_steps + step.gain * (steps - base_steps), random),
                                  (vint)(-TSDF_MAX), (vint)(TSDF_MAX));
@@ -116,7 +120,6 @@ __kernel void integrate_blocks(__global char *voxels, __global const int *visibl
     }
   }
 
-  const int bits =
-      (any_bits(data) != 0 ? BLOCK_HAS_DATA : 0) | any_bits(octants) << BLOCK_NEAR_SURFACE_SHIFT;
+  const int bits = (any_bits(data) != 0 ? BLOCK_HAS_DATA : 0) | any_bits(octants) << BLOCK_NEAR_SURFACE_SHIFT;
   if ((block_states[slot] & bits) != bits) atomic_or(block_states + slot, bits);
 }

@@ -1,5 +1,5 @@
-// How far in front of the measured surface a point is. FUSION_DISTANCE: DISTANCE_PROJECTIVE, DISTANCE_PLANE or
-// DISTANCE_REFINED (see types.h).
+// How far in front of the measured surface a point is. FUSION_DISTANCE: DISTANCE_PROJECTIVE, DISTANCE_PLANE
+// or DISTANCE_REFINED (see types.h).
 #include "shared/image.h"
 #include "shared/measurement.h"
 #include "shared/normal.h"
@@ -23,8 +23,8 @@ typedef struct {
   Normals normal;
 } TangentPlane;
 
-inline TangentPlane plane_at(vfloat u, vfloat v, Points p, __global const uint *measurements,
-                             __global const uint *normals, const CameraArgs camera, float depth_step_m) {
+inline TangentPlane plane_at(vfloat u, vfloat v, Points p, __global const uint* measurements,
+                             __global const uint* normals, const CameraArgs camera, float depth_step_m) {
   const vint inside = (u >= 0.0f) & (v >= 0.0f) & (u < camera.width) & (v < camera.height);
   const vint column = TO_VINT(u), row = TO_VINT(v);
   const vint pixel = select((vint)(0), pixel_indices(column, row, camera), inside);
@@ -39,18 +39,19 @@ inline TangentPlane plane_at(vfloat u, vfloat v, Points p, __global const uint *
   return result;
 }
 
-// Steps from the point's own pixel along the normal to the pixel where the nearest point of the surface is seen.
+// Steps from the point's own pixel along the normal to the pixel where the nearest point of the surface is
+// seen.
 inline MeasuredDistance measured_distance(Points p, Measurement measured, float ray_length,
-                                          __global const uint *measurements, __global const uint *normals,
-                                          const CameraArgs camera, float truncation_m,
-                                          float depth_step_m) {
+                                          __global const uint* measurements, __global const uint* normals,
+                                          const CameraArgs camera, float truncation_m, float depth_step_m) {
   const vfloat along_ray_m = (measured.depth_m - p.z) * ray_length;
   const vint near = fabs(along_ray_m) < MAX_REFINED_RANGE * truncation_m;
   MeasuredDistance result = {along_ray_m, 1.0f};
   vfloat x = p.x, y = p.y, z = p.z;
   for (int i = 0; i < GRADIENT_STEPS; ++i) {
-    TangentPlane tangent = plane_at(camera.fx * x / z + (camera.cx + 0.5f), camera.fy * y / z + (camera.cy + 0.5f),
-                                          p, measurements, normals, camera, depth_step_m);
+    TangentPlane tangent =
+        plane_at(camera.fx * x / z + (camera.cx + 0.5f), camera.fy * y / z + (camera.cy + 0.5f), p,
+                 measurements, normals, camera, depth_step_m);
     tangent.known = tangent.known & near;
     result.distance_m = select(result.distance_m, tangent.distance_m, tangent.known);
     result.slope = select(result.slope, measured.cosine, tangent.known);
@@ -64,9 +65,8 @@ inline MeasuredDistance measured_distance(Points p, Measurement measured, float 
 #else
 
 inline MeasuredDistance measured_distance(Points p, Measurement measured, float ray_length,
-                                          __global const uint *measurements, __global const uint *normals,
-                                          const CameraArgs camera, float truncation_m,
-                                          float depth_step_m) {
+                                          __global const uint* measurements, __global const uint* normals,
+                                          const CameraArgs camera, float truncation_m, float depth_step_m) {
 #if FUSION_DISTANCE == DISTANCE_PLANE
   const vfloat slope = measured.cosine;
 #else

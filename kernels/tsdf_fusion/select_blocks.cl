@@ -1,4 +1,5 @@
-// Block selection: which blocks does the measured surface meet, and which allocated blocks does the camera see.
+// Block selection: which blocks does the measured surface meet, and which allocated blocks does the camera
+// see.
 //   requests  indices of the blocks claimed, in any order
 //   points_outside  counts the samples of the surface that lie outside of the window
 //   visible   slots of the blocks to update, in any order
@@ -7,9 +8,9 @@
 #include "shared/window.h"
 
 typedef struct {
-  vint x, y, z;    // block indices
-  vint address;    // in the offsets; any where it is not `inside`
-  vint inside;     // of the window
+  vint x, y, z;  // block indices
+  vint address;  // in the offsets; any where it is not `inside`
+  vint inside;   // of the window
 } Blocks;
 
 inline Blocks blocks_with(vfloat x, vfloat y, vfloat z, const GridArgs grid) {
@@ -19,15 +20,16 @@ inline Blocks blocks_with(vfloat x, vfloat y, vfloat z, const GridArgs grid) {
   blocks.x = TO_VINT(floor(x * per_block));
   blocks.y = TO_VINT(floor(y * per_block));
   blocks.z = TO_VINT(floor(z * per_block));
-  const vint in_x = blocks.x - grid.origin[0], in_y = blocks.y - grid.origin[1], in_z = blocks.z - grid.origin[2];
+  const vint in_x = blocks.x - grid.origin[0], in_y = blocks.y - grid.origin[1],
+             in_z = blocks.z - grid.origin[2];
   blocks.inside = in_window(in_x, n) & in_window(in_y, n) & in_window(in_z, n);
   blocks.address = window_address(in_x, in_y, in_z, grid);
   return blocks;
 }
 
 // Each block with one atomic, so that it is asked for once. A claim that finds the list full is withdrawn.
-inline void claim(const Blocks blocks, vint wanted, __global int *offsets, __global int4 *requests,
-                  __global int *count, int capacity) {
+inline void claim(const Blocks blocks, vint wanted, __global int* offsets, __global int4* requests,
+                  __global int* count, int capacity) {
   int claims[SIMD_WIDTH], x[SIMD_WIDTH], y[SIMD_WIDTH], z[SIMD_WIDTH], address[SIMD_WIDTH];
   VSTORE(wanted, claims);
   VSTORE(blocks.x, x);
@@ -46,10 +48,10 @@ inline void claim(const Blocks blocks, vint wanted, __global int *offsets, __glo
   }
 }
 
-// A work-item samples SIMD_WIDTH pixels of a row, walks the truncation band along their rays, and claims the empty blocks
-// it meets.
-__kernel void request_blocks(__global const float *depth, __global int *offsets, __global int4 *requests,
-                             __global int *count, __global int *points_outside, CameraArgs camera,
+// A work-item samples SIMD_WIDTH pixels of a row, walks the truncation band along their rays, and claims the
+// empty blocks it meets.
+__kernel void request_blocks(__global const float* depth, __global int* offsets, __global int4* requests,
+                             __global int* count, __global int* points_outside, CameraArgs camera,
                              TransformArgs T_W_D, GridArgs grid, SelectionArgs args) {
   const int first_column = get_global_id(0) * SIMD_WIDTH;
   const vint column = first_column + LANE_INDICES;
@@ -77,14 +79,15 @@ __kernel void request_blocks(__global const float *depth, __global int *offsets,
   const Blocks surface = blocks_with(T_W_D.translation[0] + z * ray_Wx, T_W_D.translation[1] + z * ray_Wy,
                                      T_W_D.translation[2] + z * ray_Wz, grid);
   const vint outside = sampled & NOT(surface.inside);
-  if (ANY(outside)) atomic_add(points_outside, (int)SUM_LANES(select((vfloat)(0.0f), (vfloat)(1.0f), outside)));
+  if (ANY(outside))
+    atomic_add(points_outside, (int)SUM_LANES(select((vfloat)(0.0f), (vfloat)(1.0f), outside)));
 }
 
 // From a voxel's pixel to those that its depth was filtered from.
 #define FILTER_REACH_PX 2.5f
 
-// The first and the last column, or row, that may have to do with points between from_m and to_m beside the axis, at depths
-// between nearest and farthest.
+// The first and the last column, or row, that may have to do with points between from_m and to_m beside the
+// axis, at depths between nearest and farthest.
 inline int2 pixel_range(float from_m, float to_m, float nearest, float farthest, float f, float c, int size) {
   const float first = f * from_m / (from_m < 0.0f ? nearest : farthest) + c - FILTER_REACH_PX;
   const float last = f * to_m / (to_m < 0.0f ? farthest : nearest) + c + FILTER_REACH_PX;
@@ -92,14 +95,14 @@ inline int2 pixel_range(float from_m, float to_m, float nearest, float farthest,
 }
 
 inline float half_extent(const TransformArgs T_D_W, int row, float block_m) {
-  __private const float *r = T_D_W.rotation + 3 * row;
+  __private const float* r = T_D_W.rotation + 3 * row;
   return 0.5f * block_m * (fabs(r[0]) + fabs(r[1]) + fabs(r[2]));
 }
 
-// A block is visible if the box around it, along the camera's axes, meets the image where the measured depth, plus the
-// truncation, is not in front of it.
-inline bool is_visible(int3 block, __global const float *max_tiles, const CameraArgs camera, const TransformArgs T_D_W,
-                       const GridArgs grid) {
+// A block is visible if the box around it, along the camera's axes, meets the image where the measured depth,
+// plus the truncation, is not in front of it.
+inline bool is_visible(int3 block, __global const float* max_tiles, const CameraArgs camera,
+                       const TransformArgs T_D_W, const GridArgs grid) {
   const float block_m = grid.voxel_size_m * BLOCK_SIZE;
   const float radius = 0.8660254f * block_m;
   const float3 centre = transform_point(T_D_W, (convert_float3(block) + 0.5f) * block_m);
@@ -109,8 +112,10 @@ inline bool is_visible(int3 block, __global const float *max_tiles, const Camera
   const float nearest = centre.z - half_z;
   int2 x = (int2)(0, camera.width - 1), y = (int2)(0, camera.height - 1);
   if (nearest > 0.1f) {
-    x = pixel_range(centre.x - half_x, centre.x + half_x, nearest, centre.z + half_z, camera.fx, camera.cx, camera.width);
-    y = pixel_range(centre.y - half_y, centre.y + half_y, nearest, centre.z + half_z, camera.fy, camera.cy, camera.height);
+    x = pixel_range(centre.x - half_x, centre.x + half_x, nearest, centre.z + half_z, camera.fx, camera.cx,
+                    camera.width);
+    y = pixel_range(centre.y - half_y, centre.y + half_y, nearest, centre.z + half_z, camera.fy, camera.cy,
+                    camera.height);
   }
   const int tile_columns = (camera.width + DEPTH_TILE - 1) / DEPTH_TILE;
   float farthest = 0.0f;
@@ -123,9 +128,9 @@ inline bool is_visible(int3 block, __global const float *max_tiles, const Camera
 }
 
 // A work-item tests SLOTS_PER_ITEM slots of the groups in view.
-__kernel void list_visible_blocks(__global const int *groups, int group_count, int slots,
-                                  __global const int4 *block_indices, __global int *block_states,
-                                  __global const float *max_tiles, __global int *visible, __global int *count,
+__kernel void list_visible_blocks(__global const int* groups, int group_count, int slots,
+                                  __global const int4* block_indices, __global int* block_states,
+                                  __global const float* max_tiles, __global int* visible, __global int* count,
                                   CameraArgs camera, TransformArgs T_D_W, GridArgs grid) {
   int found[SLOTS_PER_ITEM(SIMD_WIDTH)], found_count = 0;
   for (int i = 0; i < SLOTS_PER_ITEM(SIMD_WIDTH); ++i) {
@@ -143,9 +148,9 @@ __kernel void list_visible_blocks(__global const int *groups, int group_count, i
 }
 
 // A work-item tests one block of the visible list after fusion; those without data leave the map.
-__kernel void list_empty_blocks(__global int *offsets, __global int4 *block_indices,
-                                __global const int *block_states, __global const int *visible, int visible_count,
-                                __global int *empty, __global int *count, GridArgs grid) {
+__kernel void list_empty_blocks(__global int* offsets, __global int4* block_indices,
+                                __global const int* block_states, __global const int* visible,
+                                int visible_count, __global int* empty, __global int* count, GridArgs grid) {
   const int i = get_global_id(0);
   if (i >= visible_count) return;
   const int slot = visible[i];

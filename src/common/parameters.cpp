@@ -45,13 +45,15 @@ Number parseNumber(const std::string& name, const std::string& text) {
   std::istringstream stream(text);
   Number number{};
   stream >> number;
-  check(!stream.fail() && stream.eof(), "parameter '" + name + "': '" + text + "' is not a number of its type");
+  check(!stream.fail() && stream.eof(),
+        "parameter '" + name + "': '" + text + "' is not a number of its type");
   return number;
 }
 
 std::string shortestText(float number) {
   std::ostringstream text;
-  for (int digits = std::numeric_limits<float>::digits10; digits <= std::numeric_limits<float>::max_digits10; ++digits) {
+  for (int digits = std::numeric_limits<float>::digits10; digits <= std::numeric_limits<float>::max_digits10;
+       ++digits) {
     text.str("");
     text.precision(digits);
     text << number;
@@ -120,14 +122,16 @@ ParameterTable withPrefix(const std::string& stage, ParameterTable stage_table) 
 const Parameter& findParameter(const ParameterTable& table, const std::string& name) {
   const auto row =
       std::find_if(table.begin(), table.end(), [&](const Parameter& p) { return p.name == name; });
-  check(row != table.end(), "unknown parameter '" + name + "'; did you mean '" + nearestName(table, name) + "'?");
+  check(row != table.end(),
+        "unknown parameter '" + name + "'; did you mean '" + nearestName(table, name) + "'?");
   return *row;
 }
 
 void setParameter(const ParameterTable& table, const std::string& name, const std::string& text) {
   const Parameter& row = findParameter(table, name);
   if (const auto* flag = std::get_if<bool*>(&row.value)) {
-    check(text == "true" || text == "false", "parameter '" + name + "': '" + text + "' is neither true nor false");
+    check(text == "true" || text == "false",
+          "parameter '" + name + "': '" + text + "' is neither true nor false");
     **flag = text == "true";
   } else if (const auto* integer = std::get_if<int*>(&row.value)) {
     **integer = parseNumber<int>(name, text);
@@ -161,7 +165,8 @@ std::string valueText(const Parameter& parameter) {
 
 std::string rangeText(const Parameter& parameter) {
   if (std::holds_alternative<bool*>(parameter.value)) return "true, false";
-  if (std::holds_alternative<std::string*>(parameter.value)) return parameter.choices.empty() ? "text" : joined(parameter.choices);
+  if (std::holds_alternative<std::string*>(parameter.value))
+    return parameter.choices.empty() ? "text" : joined(parameter.choices);
   std::ostringstream text;
   text << "[" << parameter.minimum << ", " << parameter.maximum << "]";
   return text.str();

@@ -18,9 +18,10 @@ DeviceBuffer::DeviceBuffer(ComputeContext& compute, size_t bytes, const char* pu
     : compute_(&compute), bytes_(bytes) {
   cl_int status = CL_SUCCESS;
   handle_ = clCreateBuffer(compute.impl().context(), CL_MEM_READ_WRITE, bytes, nullptr, &status);
-  check(status == CL_SUCCESS, "device memory for " + std::string(purpose) + ", " + std::to_string(bytes >> 20) +
-                                  " MiB of " + std::to_string(compute.device().memory_bytes >> 20) +
-                                  " MiB: " + statusText(status) + "; ask for a smaller map or another --device");
+  check(status == CL_SUCCESS,
+        "device memory for " + std::string(purpose) + ", " + std::to_string(bytes >> 20) + " MiB of " +
+            std::to_string(compute.device().memory_bytes >> 20) + " MiB: " + statusText(status) +
+            "; ask for a smaller map or another --device");
 }
 
 DeviceBuffer::~DeviceBuffer() {
@@ -52,8 +53,8 @@ void DeviceBuffer::writeAsync(const void* source, size_t bytes) {
 
 void DeviceBuffer::read(void* destination, size_t bytes, size_t offset_bytes) const {
   if (bytes == 0) return;
-  checkStatus(clEnqueueReadBuffer(compute_->impl().queue(), handle_, CL_TRUE, offset_bytes, bytes, destination,
-                                  0, nullptr, nullptr),
+  checkStatus(clEnqueueReadBuffer(compute_->impl().queue(), handle_, CL_TRUE, offset_bytes, bytes,
+                                  destination, 0, nullptr, nullptr),
               "clEnqueueReadBuffer");
 }
 

@@ -34,9 +34,9 @@ struct ComputeContext::Impl {
   cl::CommandQueue queue;
   DeviceInfo info;
   std::string report;
-  int simd_width = 1;                           // pixels or voxels a work-item handles at a time
-  size_t group_size = 1;                        // most work-items of a work-group, a power of two
-  KernelProfiler* profiler = nullptr;           // notes the launches, if there is one
+  int simd_width = 1;                  // pixels or voxels a work-item handles at a time
+  size_t group_size = 1;               // most work-items of a work-group, a power of two
+  KernelProfiler* profiler = nullptr;  // notes the launches, if there is one
   std::shared_ptr<BuiltPrograms> built = std::make_shared<BuiltPrograms>();  // of all the context's queues
 
   // Builds the program once, for any thread. file: path below kernels/. Throws Error with the build log.

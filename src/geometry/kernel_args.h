@@ -20,8 +20,13 @@ inline size_t vectorsAcross(const CameraIntrinsics& camera, int simd_width) {
 }
 
 inline CameraArgs toArgs(const CameraIntrinsics& camera) {
-  return {static_cast<float>(camera.fx), static_cast<float>(camera.fy), static_cast<float>(camera.cx),
-          static_cast<float>(camera.cy), camera.width, camera.height, pitchOf(camera.width)};
+  return {static_cast<float>(camera.fx),
+          static_cast<float>(camera.fy),
+          static_cast<float>(camera.cx),
+          static_cast<float>(camera.cy),
+          camera.width,
+          camera.height,
+          pitchOf(camera.width)};
 }
 
 inline TransformArgs toArgs(const Pose& T_A_B) {

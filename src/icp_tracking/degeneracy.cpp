@@ -14,7 +14,8 @@ char dominantAxis(const Eigen::Vector3d& direction) {
 
 }  // namespace
 
-DegeneracyAnalysis::DegeneracyAnalysis(const IcpSystem& system, const Eigen::AlignedBox3d& box, double threshold)
+DegeneracyAnalysis::DegeneracyAnalysis(const IcpSystem& system, const Eigen::AlignedBox3d& box,
+                                       double threshold)
     : to_shrunk_(Matrix6d::Identity()), system_(system), weights_(system.weights()), size_(box.sizes()) {
   size_ = size_.cwiseMax(1e-3);
   const Eigen::Matrix3d shrink = size_.cwiseInverse().asDiagonal();
@@ -32,22 +33,24 @@ IcpSystem DegeneracyAnalysis::constrained() const {
   const auto kept = eigenvectors_.rightCols(6 - free_);
   const Matrix6d back = to_shrunk_.inverse();
   IcpSystem result = system_;
-  result.hessian =
-      weights_ * back * kept * eigenvalues_.tail(6 - free_).asDiagonal() * kept.transpose() * back.transpose();
+  result.hessian = weights_ * back * kept * eigenvalues_.tail(6 - free_).asDiagonal() * kept.transpose() *
+                   back.transpose();
   result.gradient = weights_ * back * kept * (kept.transpose() * shrunk_gradient_);
   return result;
 }
 
 Vector6d DegeneracyAnalysis::solve() const {
   const auto kept = eigenvectors_.rightCols(6 - free_);
-  const Eigen::VectorXd components = (kept.transpose() * -shrunk_gradient_).cwiseQuotient(eigenvalues_.tail(6 - free_));
+  const Eigen::VectorXd components =
+      (kept.transpose() * -shrunk_gradient_).cwiseQuotient(eigenvalues_.tail(6 - free_));
   return to_shrunk_.transpose() * (kept * components);
 }
 
 std::string DegeneracyAnalysis::freeDirectionNames() const {
   std::string names;
   for (int i = 0; i < free_; ++i) {
-    // At the box's centre the shrunk translation is metric; the shrunk rotation is the motion at the box's border.
+    // At the box's centre the shrunk translation is metric; the shrunk rotation is the motion at the box's
+    // border.
     const Vector6d shrunk = eigenvectors_.col(i);
     const bool slides = shrunk.tail<3>().norm() > shrunk.head<3>().norm();
     const Eigen::Vector3d axis =

@@ -1,4 +1,5 @@
-// Which directions of motion the geometry leaves free (the paper's section "Cooperation with CPU Registration").
+// Which directions of motion the geometry leaves free (the paper's section "Cooperation with CPU
+// Registration").
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,9 +10,9 @@
 
 namespace depth_fusion {
 
-// The ICP system in coordinates shrunk to the unit cube: with m the centre and S the sizes of the box around the points,
-// c^ = S^-1 (c - m x n), whose matrix has eigenvalues of one scale. Twists go back by r = S^-1 r^, t = t^ - r x m
-// (the paper prints r = S r^, t = t^ + r x m, which does not keep c . r + n . t).
+// The ICP system in coordinates shrunk to the unit cube: with m the centre and S the sizes of the box around
+// the points, c^ = S^-1 (c - m x n), whose matrix has eigenvalues of one scale. Twists go back by r = S^-1
+// r^, t = t^ - r x m (the paper prints r = S r^, t = t^ + r x m, which does not keep c . r + n . t).
 class DegeneracyAnalysis {
  public:
   // threshold: the paper's theta, of the eigenvalues divided by the sum of the matches' weights.
@@ -28,10 +29,10 @@ class DegeneracyAnalysis {
   std::string freeDirectionNames() const;
 
  private:
-  Matrix6d to_shrunk_;                 // J^ = to_shrunk * J; twists: x = to_shrunk^T * x^
+  Matrix6d to_shrunk_;  // J^ = to_shrunk * J; twists: x = to_shrunk^T * x^
   IcpSystem system_;
-  Vector6d eigenvalues_;               // ascending, divided by the sum of the weights
-  Matrix6d eigenvectors_;              // of the shrunk system, in columns
+  Vector6d eigenvalues_;   // ascending, divided by the sum of the weights
+  Matrix6d eigenvectors_;  // of the shrunk system, in columns
   Vector6d shrunk_gradient_;
   double weights_ = 0.0;
   Eigen::Vector3d size_;

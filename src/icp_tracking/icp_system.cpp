@@ -7,13 +7,12 @@
 
 namespace depth_fusion {
 
-double IcpSystem::rmse() const {
-  return weights() > 0.0 ? std::sqrt(squared_residuals / weights()) : 0.0;
-}
+double IcpSystem::rmse() const { return weights() > 0.0 ? std::sqrt(squared_residuals / weights()) : 0.0; }
 
 IcpSystem sumRows(const std::vector<float>& partial_sums, int row_step) {
   std::array<double, ICP_SUMS> sums{};
-  for (size_t i = 0; i < partial_sums.size(); ++i) sums[i % ICP_SUMS] += row_step * static_cast<double>(partial_sums[i]);
+  for (size_t i = 0; i < partial_sums.size(); ++i)
+    sums[i % ICP_SUMS] += row_step * static_cast<double>(partial_sums[i]);
   IcpSystem system;
   size_t next = 0;
   for (int row = 0; row < 6; ++row) {

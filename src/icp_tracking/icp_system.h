@@ -19,8 +19,8 @@ struct IcpSystem {
   double rmse() const;  // metres, weighted
 };
 
-// Adds up the rows' partial sums (ICP_SUMS each), in double and in order, so that the result is repeatable. Each row stands
-// for row_step rows.
+// Adds up the rows' partial sums (ICP_SUMS each), in double and in order, so that the result is repeatable.
+// Each row stands for row_step rows.
 IcpSystem sumRows(const std::vector<float>& partial_sums, int row_step);
 
 }  // namespace depth_fusion

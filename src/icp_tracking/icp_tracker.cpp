@@ -43,7 +43,8 @@ std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker:
   } else if (system.source_points < parameters.min_inliers) {
     reason << "only " << system.source_points << " points with depth and normal";
   } else if (system.inliers < parameters.min_inliers || fraction < parameters.min_inlier_fraction) {
-    reason << "only " << system.inliers << " inliers, " << std::lround(100.0 * fraction) << " % of the points";
+    reason << "only " << system.inliers << " inliers, " << std::lround(100.0 * fraction)
+           << " % of the points";
   } else if (!(system.rmse() <= parameters.max_rmse_m)) {
     reason << "rmse " << system.rmse() << " m";
   } else if (T_prior_D.translation().norm() > parameters.max_translation_m ||
@@ -55,9 +56,10 @@ std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker:
   return reason.str();
 }
 
-// The cube that points with the mean and spread of the frame's would fill evenly, seen from M. They count by the sensor's
-// accuracy, as they do in the system: a few points far away would make the box large and all rotations weak. A cube, for
-// the lever arms of a rotation about an axis lie across it: the box's own sizes (the paper's S) would scale them wrongly.
+// The cube that points with the mean and spread of the frame's would fill evenly, seen from M. They count by
+// the sensor's accuracy, as they do in the system: a few points far away would make the box large and all
+// rotations weak. A cube, for the lever arms of a rotation about an axis lie across it: the box's own sizes
+// (the paper's S) would scale them wrongly.
 Eigen::AlignedBox3d spreadBox(const DepthLevel& coarsest, const Pose& T_M_D) {
   const CameraIntrinsics& camera = coarsest.camera;
   const cv::Mat depth = readImage(coarsest.depth, camera);
@@ -68,7 +70,8 @@ Eigen::AlignedBox3d spreadBox(const DepthLevel& coarsest, const Pose& T_M_D) {
     for (int u = 0; u < depth.cols; ++u) {
       const double z = depth.at<float>(v, u);
       if (z <= 0.0) continue;
-      const Eigen::Vector3d p = T_M_D * (z * Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0));
+      const Eigen::Vector3d p =
+          T_M_D * (z * Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0));
       const double sigma_m = AXIAL_SIGMA_M(coarsest.sensor, z);
       const double weight = 1.0 / (sigma_m * sigma_m);
       weights += weight;
@@ -96,7 +99,8 @@ struct Solution {
   Matrix6d covariance;
 };
 
-// The information that the matches hold. Neighbouring ones share their errors, so that `correlated` count as one.
+// The information that the matches hold. Neighbouring ones share their errors, so that `correlated` count as
+// one.
 IcpSystem weighed(const IcpSystem& system, double correlated) {
   const double scale = 1.0 / (static_cast<double>(ICP_UNIT_SIGMA_M) * ICP_UNIT_SIGMA_M * correlated);
   IcpSystem result = system;
@@ -105,7 +109,8 @@ IcpSystem weighed(const IcpSystem& system, double correlated) {
   return result;
 }
 
-Solution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const IcpTracker::SystemPrior& prior, double correlated) {
+Solution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const IcpTracker::SystemPrior& prior,
+               double correlated) {
   const IcpSystem system = weighed(analysis.constrained(), correlated);
   if (!prior.information) return {analysis.solve(), system.hessian.inverse()};
   const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
@@ -124,29 +129,32 @@ Vector6d limited(const Vector6d& twist, const MatchGates& gates, const Eigen::Al
 }  // namespace
 
 ParameterTable IcpTrackingParameters::table() {
-  return {
-      {"coarse_iterations", &coarse_iterations, 0, 100, "most iterations at a quarter of the size"},
-      {"middle_iterations", &middle_iterations, 0, 100, "most iterations at half the size"},
-      {"fine_iterations", &fine_iterations, 1, 100, "most iterations at full size"},
-      {"fine_row_step", &fine_row_step, 1, 16, "rows from one that is matched to the next, at full size"},
-      {"coarse_distance_m", &coarse_distance_m, 1e-4, 10.0, "largest distance of a match at a quarter of the size"},
-      {"fine_distance_m", &fine_distance_m, 1e-4, 10.0, "largest distance of a match at full size"},
-      {"coarse_normal_angle_rad", &coarse_normal_angle_rad, 0.01, 1.5707,
-       "largest angle between the normals of a match at a quarter of the size"},
-      {"fine_normal_angle_rad", &fine_normal_angle_rad, 0.01, 1.5707, "the same at full size"},
-      {"huber_sigmas", &huber_sigmas, 0.1, 1000.0,
-       "residual, in standard deviations of the sensor, from which a match's weight falls"},
-      {"degeneracy_threshold", &degeneracy_threshold, 0.0, 1.0,
-       "eigenvalue a match, in the unit cube, up to which a direction is left to the prior (the paper's theta)"},
-      {"correlated_points", &correlated_points, 1.0, 1e6,
-       "matches that count as one measurement against a prior, for their errors are alike"},
-      {"convergence_rad", &convergence_rad, 0.0, 1.0, "rotation of a step below which the full size has converged; four times that at half of it, and so on"},
-      {"convergence_m", &convergence_m, 0.0, 1.0, "the same for the translation"},
-      {"min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0, "of the frame's points; lost below"},
-      {"min_inliers", &min_inliers, 6, 100000000, "matches; lost below"},
-      {"max_rmse_m", &max_rmse_m, 1e-5, 1.0, "point-to-plane; lost above"},
-      {"max_translation_m", &max_translation_m, 1e-3, 100.0, "against the prior; lost above"},
-      {"max_rotation_rad", &max_rotation_rad, 1e-3, 3.1416, "against the prior; lost above"}};
+  return {{"coarse_iterations", &coarse_iterations, 0, 100, "most iterations at a quarter of the size"},
+          {"middle_iterations", &middle_iterations, 0, 100, "most iterations at half the size"},
+          {"fine_iterations", &fine_iterations, 1, 100, "most iterations at full size"},
+          {"fine_row_step", &fine_row_step, 1, 16, "rows from one that is matched to the next, at full size"},
+          {"coarse_distance_m", &coarse_distance_m, 1e-4, 10.0,
+           "largest distance of a match at a quarter of the size"},
+          {"fine_distance_m", &fine_distance_m, 1e-4, 10.0, "largest distance of a match at full size"},
+          {"coarse_normal_angle_rad", &coarse_normal_angle_rad, 0.01, 1.5707,
+           "largest angle between the normals of a match at a quarter of the size"},
+          {"fine_normal_angle_rad", &fine_normal_angle_rad, 0.01, 1.5707, "the same at full size"},
+          {"huber_sigmas", &huber_sigmas, 0.1, 1000.0,
+           "residual, in standard deviations of the sensor, from which a match's weight falls"},
+          {"degeneracy_threshold", &degeneracy_threshold, 0.0, 1.0,
+           "eigenvalue a match, in the unit cube, up to which a direction is left to the prior (the paper's "
+           "theta)"},
+          {"correlated_points", &correlated_points, 1.0, 1e6,
+           "matches that count as one measurement against a prior, for their errors are alike"},
+          {"convergence_rad", &convergence_rad, 0.0, 1.0,
+           "rotation of a step below which the full size has converged; four times that at half of it, and "
+           "so on"},
+          {"convergence_m", &convergence_m, 0.0, 1.0, "the same for the translation"},
+          {"min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0, "of the frame's points; lost below"},
+          {"min_inliers", &min_inliers, 6, 100000000, "matches; lost below"},
+          {"max_rmse_m", &max_rmse_m, 1e-5, 1.0, "point-to-plane; lost above"},
+          {"max_translation_m", &max_translation_m, 1e-3, 100.0, "against the prior; lost above"},
+          {"max_rotation_rad", &max_rotation_rad, 1e-3, 3.1416, "against the prior; lost above"}};
 }
 
 IcpTracker::IcpTracker(ComputeContext& compute, const IcpTrackingParameters& parameters,
@@ -172,15 +180,17 @@ MatchGates IcpTracker::gatesAt(int level) const {
           parameters_.huber_sigmas, level == 0 ? parameters_.fine_row_step : 1};
 }
 
-bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView& view, const SystemPrior& prior,
-                            const Eigen::AlignedBox3d& box, Alignment& alignment) {
+bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView& view,
+                            const SystemPrior& prior, const Eigen::AlignedBox3d& box, Alignment& alignment) {
   // What geometry says weakly is worth more than no measurement.
   const double threshold = parameters_.degeneracy_threshold * (prior.information ? 1.0 : 0.1);
-  const int iterations[] = {parameters_.fine_iterations, parameters_.middle_iterations, parameters_.coarse_iterations};
+  const int iterations[] = {parameters_.fine_iterations, parameters_.middle_iterations,
+                            parameters_.coarse_iterations};
   const MatchGates gates = gatesAt(level);
   const double coarseness = std::pow(4.0, level);  // the next level goes on from here
   for (int i = 0; i < iterations[level]; ++i) {
-    alignment.system = kernels_->accumulateSystem(frame.levels[level], view, alignment.T_M_D, gates, partial_sums_);
+    alignment.system =
+        kernels_->accumulateSystem(frame.levels[level], view, alignment.T_M_D, gates, partial_sums_);
     ++alignment.iterations;
     if (alignment.system.inliers < 6.0) return false;
     const DegeneracyAnalysis analysis(alignment.system, box, threshold);

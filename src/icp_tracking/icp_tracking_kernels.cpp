@@ -10,8 +10,8 @@ IcpTracker::Kernels::Kernels(ComputeContext& compute)
       accumulate_(compute, "icp_tracking/accumulate_system.cl", "accumulate_system",
                   "-DGROUP_SIZE=" + std::to_string(group_size_)) {}
 
-IcpSystem IcpTracker::Kernels::accumulateSystem(const DepthLevel& level, const ModelView& view, const Pose& T_M_D,
-                                                const MatchGates& gates,
+IcpSystem IcpTracker::Kernels::accumulateSystem(const DepthLevel& level, const ModelView& view,
+                                                const Pose& T_M_D, const MatchGates& gates,
                                                 DeviceBuffer& partial_sums) {
   const MatchingArgs args{gates.max_distance_m, gates.min_normal_cosine, gates.huber_sigmas, gates.row_step};
   const size_t rows = (level.camera.height + gates.row_step - 1) / gates.row_step;

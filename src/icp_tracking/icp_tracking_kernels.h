@@ -21,8 +21,8 @@ class IcpTracker::Kernels {
   explicit Kernels(ComputeContext& compute);
 
   // The system of matching `level` at T_M_D against the view, M being the view's camera frame.
-  IcpSystem accumulateSystem(const DepthLevel& level, const ModelView& view, const Pose& T_M_D, const MatchGates& gates,
-                             DeviceBuffer& partial_sums);
+  IcpSystem accumulateSystem(const DepthLevel& level, const ModelView& view, const Pose& T_M_D,
+                             const MatchGates& gates, DeviceBuffer& partial_sums);
 
  private:
   size_t group_size_;

@@ -12,7 +12,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr size_t kColorBytes = 4;  // a voxel
+constexpr size_t kColorBytes = 4;          // a voxel
 constexpr size_t kTransferBlocks = 16384;  // blocks that one upload of requests names
 
 size_t cube(int n) { return static_cast<size_t>(n) * static_cast<size_t>(n) * static_cast<size_t>(n); }
@@ -21,7 +21,9 @@ int floorModulo(int a, int n) { return (a % n + n) % n; }
 
 // Bytes of a block in the pool, and of its colours.
 size_t blockBytes(const MapParameters& map) { return 2 * cube(map.block_size); }
-size_t blockColorBytes(const MapParameters& map) { return map.color ? kColorBytes * cube(map.block_size) : 0; }
+size_t blockColorBytes(const MapParameters& map) {
+  return map.color ? kColorBytes * cube(map.block_size) : 0;
+}
 
 MapParameters checked(MapParameters parameters) {
   validate(parameters.table());
@@ -56,7 +58,8 @@ ParameterTable MapParameters::table() {
        {"block_size", &block_size, 4, 32, "voxels per axis of a block, a power of two (the paper's M)"},
        {"truncation_m", &truncation_m, 0.0, 10.0,
         "distance kept on both sides of a surface (the paper's delta); 0 = four voxels"},
-       {"pool_mib", &pool_mib, 1, 2047, "memory for voxels, allocated once; colour takes twice as much again"},
+       {"pool_mib", &pool_mib, 1, 2047,
+        "memory for voxels, allocated once; colour takes twice as much again"},
        {"color", &color, 0, 1, "true: the map holds colour, where the recording has it"}});
 }
 
@@ -154,8 +157,8 @@ size_t BlockSparseMap::allocate(const std::vector<BlockIndex>& blocks) {
     request_transfer_.write(requests);
     if (begin < met) {
       slot_transfer_.write(slots);
-      kernels_->assign.run(count, offsets_, block_indices_, block_states_, request_transfer_, slot_transfer_, count,
-                           grid);
+      kernels_->assign.run(count, offsets_, block_indices_, block_states_, request_transfer_, slot_transfer_,
+                           count, grid);
       kernels_->clear.run(count * voxel_groups, voxels_, slot_transfer_, count);
       if (parameters_.color) kernels_->clear_colors.run(count * voxel_groups, colors_, slot_transfer_, count);
     } else {
@@ -168,7 +171,8 @@ size_t BlockSparseMap::allocate(const std::vector<BlockIndex>& blocks) {
 
 void BlockSparseMap::release(const std::vector<int>& slots) {
   for (const int slot : slots) {
-    check(slot >= 0 && slot < slot_bound_ && slot_in_use_[slot], "the map releases a block that is not in use");
+    check(slot >= 0 && slot < slot_bound_ && slot_in_use_[slot],
+          "the map releases a block that is not in use");
     slot_in_use_[slot] = false;
     free_slots_.push_back(slot);
   }
@@ -226,7 +230,8 @@ std::vector<BlockSparseMap::Block> BlockSparseMap::blocks() const {
   for (int slot = 0; slot < slot_bound_; ++slot) {
     if (slot_in_use_[slot]) blocks.push_back({slot_blocks_[slot], slot});
   }
-  std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return before(a.index, b.index); });
+  std::sort(blocks.begin(), blocks.end(),
+            [](const Block& a, const Block& b) { return before(a.index, b.index); });
   return blocks;
 }
 

@@ -26,14 +26,16 @@ void FrameTracker::setParameters(const PipelineParameters& parameters) {
   parameters_ = withinSensorRange(parameters);
 }
 
-MotionPrior FrameTracker::prepare(const RgbdFrame& frame, const TextureOdometryResult& motion, StageTimers& timers) {
+MotionPrior FrameTracker::prepare(const RgbdFrame& frame, const TextureOdometryResult& motion,
+                                  StageTimers& timers) {
   const MotionPrior prior = predict(frame.stamp_s, motion);
   preprocess(compute_, preprocessor_, frame, velocity_, timers);
   return prior;
 }
 
-TrackingResult FrameTracker::track(const RgbdFrame& frame, const MotionPrior& prior, const FrameFeatures& features,
-                                   const ModelView* view, StageTimers& timers, const Pose& start) {
+TrackingResult FrameTracker::track(const RgbdFrame& frame, const MotionPrior& prior,
+                                   const FrameFeatures& features, const ModelView* view, StageTimers& timers,
+                                   const Pose& start) {
   if (view == nullptr) return begin(frame, start);
   const DepthFrame& depth = *preprocessor_.result();
   TrackingResult result;

@@ -35,7 +35,8 @@ void warmUp(ComputeContext& compute, PipelineParameters parameters) {
   parameters.icp_tracking.min_inliers = 6;
   const PreprocessingParameters& range = parameters.preprocessing;
   ReconstructionPipeline pipeline(compute, parameters, kCamera);
-  RgbdFrame frame = wallAt(std::min(range.min_range_m + 0.2f, 0.5f * (range.min_range_m + range.max_range_m)));
+  RgbdFrame frame =
+      wallAt(std::min(range.min_range_m + 0.2f, 0.5f * (range.min_range_m + range.max_range_m)));
   for (int i = 0; i < kFrames; ++i) {
     frame.stamp_s = i / 30.0;
     pipeline.processFrame(frame);

@@ -24,29 +24,33 @@ DepthPreprocessingKernels::DepthPreprocessingKernels(ComputeContext& compute)
       pack_weighted_(compute, kMeasurementsFile, "pack_measurements", "-DWEIGHTS"),
       tiles_(compute, kFile, "max_tiles") {}
 
-void DepthPreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input, const DeviceBuffer& offsets,
-                                              DeviceBuffer& depth, const CameraIntrinsics& camera,
-                                              const RangeArgs& range) {
+void DepthPreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input,
+                                              const DeviceBuffer& offsets, DeviceBuffer& depth,
+                                              const CameraIntrinsics& camera, const RangeArgs& range) {
   Kernel& plain = is_u16 ? from_u16_ : from_f32_;
   Kernel& with_offsets = is_u16 ? from_u16_corrected_ : from_f32_corrected_;
   Kernel& kernel = offsets.bytes() == 0 ? plain : with_offsets;
-  kernel.run2d(vectorsAcross(camera, simd_width_), camera.height, input, offsets, depth, toArgs(camera), range);
+  kernel.run2d(vectorsAcross(camera, simd_width_), camera.height, input, offsets, depth, toArgs(camera),
+               range);
 }
 
 void DepthPreprocessingKernels::compensateMotion(const DeviceBuffer& depth, DeviceBuffer& compensated,
-                                                 const CameraIntrinsics& camera, const SensorMotionArgs& motion) {
-  compensate_motion_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, compensated, toArgs(camera), motion);
+                                                 const CameraIntrinsics& camera,
+                                                 const SensorMotionArgs& motion) {
+  compensate_motion_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, compensated,
+                           toArgs(camera), motion);
 }
 
 void DepthPreprocessingKernels::filterBilateral(const DeviceBuffer& depth, DeviceBuffer& filtered,
                                                 const CameraIntrinsics& camera, const SensorArgs& sensor,
                                                 const BilateralArgs& args) {
-  bilateral_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, filtered, toArgs(camera), sensor, args);
+  bilateral_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, filtered, toArgs(camera), sensor,
+                   args);
 }
 
 void DepthPreprocessingKernels::halveDepth(const DepthLevel& level, DepthLevel& half, float cutoff_sigmas) {
-  halve_.run2d(vectorsAcross(half.camera, simd_width_), half.camera.height, level.depth, half.depth, toArgs(level.camera),
-               toArgs(half.camera), toArgs(level.sensor), cutoff_sigmas);
+  halve_.run2d(vectorsAcross(half.camera, simd_width_), half.camera.height, level.depth, half.depth,
+               toArgs(level.camera), toArgs(half.camera), toArgs(level.sensor), cutoff_sigmas);
 }
 
 void DepthPreprocessingKernels::computeNormals(const DeviceBuffer& depth, DeviceBuffer& normals,

@@ -11,8 +11,8 @@ class DepthPreprocessingKernels {
  public:
   explicit DepthPreprocessingKernels(ComputeContext& compute);
 
-  // input: width * height values of 16 bits (or floats) and at least 16 more; offsets: an image of what the inverse depth
-  // lacks, or an empty buffer.
+  // input: width * height values of 16 bits (or floats) and at least 16 more; offsets: an image of what the
+  // inverse depth lacks, or an empty buffer.
   void depthToMetres(bool is_u16, const DeviceBuffer& input, const DeviceBuffer& offsets, DeviceBuffer& depth,
                      const CameraIntrinsics& camera, const RangeArgs& range);
   void compensateMotion(const DeviceBuffer& depth, DeviceBuffer& compensated, const CameraIntrinsics& camera,
@@ -28,7 +28,8 @@ class DepthPreprocessingKernels {
 
  private:
   int simd_width_;
-  Kernel from_u16_, from_f32_, from_u16_corrected_, from_f32_corrected_, compensate_motion_, bilateral_, halve_, normals_, pack_, pack_weighted_, tiles_;
+  Kernel from_u16_, from_f32_, from_u16_corrected_, from_f32_corrected_, compensate_motion_, bilateral_,
+      halve_, normals_, pack_, pack_weighted_, tiles_;
 };
 
 }  // namespace depth_fusion

@@ -58,7 +58,8 @@ ParameterTable PreprocessingParameters::table() {
       {"min_range_m", &min_range_m, 0.0, 100.0, "nearer depth is left out"},
       {"max_range_m", &max_range_m, 0.01, 100.0, "farther depth is left out"},
       {"depth_offsets_per_m", &depth_offsets_per_m, 0.0, 0.0,
-       "columns, rows and, row by row over the image, what to add to the inverse depth (1/m), as calibrate writes it; "
+       "columns, rows and, row by row over the image, what to add to the inverse depth (1/m), as calibrate "
+       "writes it; "
        "empty: nothing"},
       {"readout_s", &readout_s, 0.0, 1.0,
        "rolling shutter: from the first row's exposure to the last's; 0: all at once (global shutter)"},
@@ -101,7 +102,8 @@ DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const Preprocessin
 
 DepthPreprocessor::~DepthPreprocessor() = default;
 
-void DepthPreprocessor::setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor) {
+void DepthPreprocessor::setParameters(const PreprocessingParameters& parameters,
+                                      const DepthSensorParameters& sensor) {
   const bool new_offsets = parameters.depth_offsets_per_m != parameters_.depth_offsets_per_m;
   parameters_ = limited(parameters, sensor);
   sensor_ = sensor;
@@ -126,7 +128,8 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
   BilateralArgs bilateral{{}, parameters_.bilateral_cutoff_sigmas};
   for (int i = 0; i < 3; ++i) bilateral.spatial_weights[i] = std::exp(-i * i / (2.0f * sigma_px * sigma_px));
 
-  const bool compensates = !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);
+  const bool compensates =
+      !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);
   kernels_->depthToMetres(
       is_u16, input_, offsets_, compensates ? skewed_depth_ : result.raw_depth, camera,
       {static_cast<float>(frame.depth_unit_m), parameters_.min_range_m, parameters_.max_range_m});
@@ -134,8 +137,8 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
     kernels_->compensateMotion(skewed_depth_, result.raw_depth, camera, sensorMotion(velocity, parameters_));
   }
   kernels_->maxTiles(result.raw_depth, result.max_tiles, camera);
-  kernels_->filterBilateral(result.raw_depth, result.levels[0].depth, camera,
-                            toArgs(result.levels[0].sensor), bilateral);
+  kernels_->filterBilateral(result.raw_depth, result.levels[0].depth, camera, toArgs(result.levels[0].sensor),
+                            bilateral);
   for (int i = 0; i < kLevels; ++i) {
     DepthLevel& level = result.levels[i];
     if (i > 0) kernels_->halveDepth(result.levels[i - 1], level, parameters_.bilateral_cutoff_sigmas);

@@ -7,8 +7,8 @@
 
 namespace depth_fusion {
 
-// Frames with the lens distortion and the colour camera that the options give. Colour without a camera of its own is
-// registered to depth, and has been through the same lens.
+// Frames with the lens distortion and the colour camera that the options give. Colour without a camera of its
+// own is registered to depth, and has been through the same lens.
 std::unique_ptr<Recording> calibrated(std::unique_ptr<Recording> recording, const RecordingOptions& options);
 
 }  // namespace depth_fusion

@@ -40,7 +40,8 @@ CameraFile parseCamera(const YAML::Node& root) {
   return file;
 }
 
-std::vector<double> readMatrix(const YAML::Node& root, const std::string& key, const std::set<size_t>& sizes) {
+std::vector<double> readMatrix(const YAML::Node& root, const std::string& key,
+                               const std::set<size_t>& sizes) {
   std::vector<double> numbers;
   try {
     numbers = root[key]["data"].as<std::vector<double>>();
@@ -70,8 +71,13 @@ CameraFile parseRosCalibration(const YAML::Node& root) {
   CameraFile file;
   const std::vector<double> k = readMatrix(root, "camera_matrix", {9});
   file.camera = {static_cast<int>(readNumber(root, "image_width")),
-                 static_cast<int>(readNumber(root, "image_height")), k[0], k[4], k[2], k[5]};
-  const std::string model = root["distortion_model"].IsDefined() ? root["distortion_model"].as<std::string>() : "";
+                 static_cast<int>(readNumber(root, "image_height")),
+                 k[0],
+                 k[4],
+                 k[2],
+                 k[5]};
+  const std::string model =
+      root["distortion_model"].IsDefined() ? root["distortion_model"].as<std::string>() : "";
   check(model == "plumb_bob" || model == "rational_polynomial",
         "'distortion_model' is '" + model + "'; known are plumb_bob and rational_polynomial");
   file.distortion = readMatrix(root, "distortion_coefficients", {4, 5, 8});

@@ -15,10 +15,11 @@ namespace depth_fusion {
 namespace {
 
 constexpr CameraIntrinsics kDataSetDefault = {640, 480, 585.0, 585.0, 320.0, 240.0};
-// The data set's colour camera, of which it says nothing: fitted to where colour edges lie beside depth edges in
-// redkitchen.
+// The data set's colour camera, of which it says nothing: fitted to where colour edges lie beside depth edges
+// in redkitchen.
 constexpr CameraIntrinsics kDataSetColor = {640, 480, 525.0, 525.0, 320.0, 240.0};
-const Vector6d kDataSetColorMotion = (Vector6d() << 0.0046, -0.0005, 0.0072, -0.0225, 0.0014, -0.0050).finished();
+const Vector6d kDataSetColorMotion =
+    (Vector6d() << 0.0046, -0.0005, 0.0072, -0.0225, 0.0014, -0.0050).finished();
 constexpr double kFrameRate_hz = 30.0;
 constexpr double kDepthUnit_m = 0.001;
 constexpr int kNoDepth = 65535;
@@ -168,7 +169,8 @@ Trajectory readSevenScenesPoses(const std::string& folder) {
   Trajectory poses;
   for (const auto& [index, files] : listFrames(folder)) {
     if (files.pose.empty()) continue;
-    if (const auto T_W_D = readPose(files.pose)) poses.push_back({static_cast<double>(index) / kFrameRate_hz, *T_W_D});
+    if (const auto T_W_D = readPose(files.pose))
+      poses.push_back({static_cast<double>(index) / kFrameRate_hz, *T_W_D});
   }
   return poses;
 }

@@ -19,8 +19,8 @@ void DepthSplatKernels::splat(const DeviceBuffer& depth, const CameraIntrinsics&
                               DeviceBuffer& depth_C, const CameraIntrinsics& other_camera, const Pose& T_C_D,
                               int footprint) {
   depth_C.fill(NO_DEPTH_BITS, depth_C.bytes());
-  splat_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, depth_C, toArgs(camera), toArgs(other_camera),
-               toArgs(T_C_D), footprint);
+  splat_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, depth_C, toArgs(camera),
+               toArgs(other_camera), toArgs(T_C_D), footprint);
 }
 
 void DepthSplatKernels::dropUnset(DeviceBuffer& depth_C, const CameraIntrinsics& other_camera) {

@@ -34,7 +34,8 @@ void RegistrationKernels::depthToMetres(bool is_u16, const DeviceBuffer& input, 
   const RangeArgs range{unit_m, std::numeric_limits<float>::min(), kAnyDepth_m};
   const DeviceBuffer no_offsets;
   (is_u16 ? from_u16_ : from_f32_)
-      .run2d(vectorsAcross(camera, simd_width_), camera.height, input, no_offsets, depth, toArgs(camera), range);
+      .run2d(vectorsAcross(camera, simd_width_), camera.height, input, no_offsets, depth, toArgs(camera),
+             range);
 }
 
 void RegistrationKernels::rectify(const DeviceBuffer& depth, DeviceBuffer& rectified,

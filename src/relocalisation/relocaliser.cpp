@@ -15,8 +15,8 @@ constexpr double kThumbnailBlur_px = 2.0;
 
 cv::Mat thumbnailOf(const FrameFeatures& features) {
   cv::Mat thumbnail;
-  cv::resize(features.smoothed_levels.back(), thumbnail, cv::Size(kThumbnailWidth_px, kThumbnailHeight_px), 0.0, 0.0,
-             cv::INTER_AREA);
+  cv::resize(features.smoothed_levels.back(), thumbnail, cv::Size(kThumbnailWidth_px, kThumbnailHeight_px),
+             0.0, 0.0, cv::INTER_AREA);
   thumbnail.convertTo(thumbnail, CV_32F);
   cv::GaussianBlur(thumbnail, thumbnail, cv::Size(), kThumbnailBlur_px);
   thumbnail -= cv::mean(thumbnail)[0];
@@ -48,12 +48,13 @@ size_t mostCrowded(const std::vector<Keyframe>& keyframes, const RelocalisationP
 }  // namespace
 
 ParameterTable RelocalisationParameters::table() {
-  return {{"keyframe_distance_m", &keyframe_distance_m, 0.001, 100.0, "between keyframes that see the same way"},
-          {"keyframe_angle_rad", &keyframe_angle_rad, 0.001, 3.1416, "between keyframes at the same place"},
-          {"max_keyframes", &max_keyframes, 0, 100000, "kept in memory, some 200 kB each; 0: no relocalisation"},
-          {"max_candidates", &max_candidates, 1, 1000, "keyframes that a lost frame is matched to"},
-          {"min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0,
-           "of a lost frame's points against the model view; still lost below"}};
+  return {
+      {"keyframe_distance_m", &keyframe_distance_m, 0.001, 100.0, "between keyframes that see the same way"},
+      {"keyframe_angle_rad", &keyframe_angle_rad, 0.001, 3.1416, "between keyframes at the same place"},
+      {"max_keyframes", &max_keyframes, 0, 100000, "kept in memory, some 200 kB each; 0: no relocalisation"},
+      {"max_candidates", &max_candidates, 1, 1000, "keyframes that a lost frame is matched to"},
+      {"min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0,
+       "of a lost frame's points against the model view; still lost below"}};
 }
 
 Relocaliser::Relocaliser(const RelocalisationParameters& parameters) : parameters_(parameters) {
@@ -86,7 +87,8 @@ std::vector<const Keyframe*> Relocaliser::candidates(const FrameFeatures& featur
   if (!features.reason.empty()) return {};
   const cv::Mat thumbnail = thumbnailOf(features);
   std::vector<std::pair<double, const Keyframe*>> ranked;
-  for (const Keyframe& keyframe : keyframes_) ranked.push_back({-thumbnail.dot(keyframe.thumbnail), &keyframe});
+  for (const Keyframe& keyframe : keyframes_)
+    ranked.push_back({-thumbnail.dot(keyframe.thumbnail), &keyframe});
   std::sort(ranked.begin(), ranked.end());
   std::vector<const Keyframe*> best;
   for (const auto& [unlikeness, keyframe] : ranked) best.push_back(keyframe);

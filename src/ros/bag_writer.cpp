@@ -91,7 +91,8 @@ class BagWriter : public RecordingWriter {
 
 std::unique_ptr<RecordingWriter> createBag(const std::string& path) {
   std::error_code unreadable;
-  check(!std::filesystem::is_regular_file(path, unreadable), path + ": already exists; remove it or choose another name");
+  check(!std::filesystem::is_regular_file(path, unreadable),
+        path + ": already exists; remove it or choose another name");
   return std::make_unique<BagWriter>(path);
 }
 

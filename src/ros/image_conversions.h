@@ -1,5 +1,5 @@
-// sensor_msgs images as the core takes them. `topic` begins the message of every Error. Images from raw messages may use the
-// message's memory: they are valid as long as it is, and not to be changed.
+// sensor_msgs images as the core takes them. `topic` begins the message of every Error. Images from raw
+// messages may use the message's memory: they are valid as long as it is, and not to be changed.
 #pragma once
 
 #include <sensor_msgs/CameraInfo.h>

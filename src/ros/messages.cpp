@@ -22,7 +22,8 @@ std_msgs::Header makeHeader(const ros::Time& stamp, const std::string& frame_id)
   return header;
 }
 
-sensor_msgs::Image makeImage(const std_msgs::Header& header, const cv::Mat& pixels, const std::string& encoding) {
+sensor_msgs::Image makeImage(const std_msgs::Header& header, const cv::Mat& pixels,
+                             const std::string& encoding) {
   sensor_msgs::Image image;
   image.header = header;
   image.width = static_cast<uint32_t>(pixels.cols);
@@ -39,7 +40,8 @@ sensor_msgs::Image makeImage(const std_msgs::Header& header, const cv::Mat& pixe
 sensor_msgs::Image makeColorImage(const std_msgs::Header& header, const cv::Mat& color) {
   const bool is_gray = color.type() == CV_8UC1;
   check(is_gray || color.type() == CV_8UC3, "colour must be of type CV_8UC3 or CV_8UC1");
-  return makeImage(header, color, is_gray ? sensor_msgs::image_encodings::MONO8 : sensor_msgs::image_encodings::BGR8);
+  return makeImage(header, color,
+                   is_gray ? sensor_msgs::image_encodings::MONO8 : sensor_msgs::image_encodings::BGR8);
 }
 
 sensor_msgs::Image makeDepthImage(const std_msgs::Header& header, const cv::Mat& depth, double unit_m) {
@@ -93,7 +95,8 @@ geometry_msgs::PoseWithCovariance toMessage(const Pose& pose, const Matrix6d& co
   return message;
 }
 
-geometry_msgs::TransformStamped makeTransform(const std_msgs::Header& header, const std::string& child, const Pose& pose) {
+geometry_msgs::TransformStamped makeTransform(const std_msgs::Header& header, const std::string& child,
+                                              const Pose& pose) {
   const geometry_msgs::Pose message = toMessage(pose);
   geometry_msgs::TransformStamped transform;
   transform.header = header;
@@ -109,7 +112,8 @@ Pose fromMessage(const geometry_msgs::Transform& transform) {
   const auto& q = transform.rotation;
   Pose pose = Pose::Identity();
   pose.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
-  pose.translation() = Eigen::Vector3d(transform.translation.x, transform.translation.y, transform.translation.z);
+  pose.translation() =
+      Eigen::Vector3d(transform.translation.x, transform.translation.y, transform.translation.z);
   return pose;
 }
 

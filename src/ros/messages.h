@@ -15,13 +15,15 @@
 
 namespace depth_fusion {
 
-// Throws Error for a stamp that ROS has no time for. 0, which means "no time" in ROS, becomes the smallest time.
+// Throws Error for a stamp that ROS has no time for. 0, which means "no time" in ROS, becomes the smallest
+// time.
 ros::Time toRosTime(double stamp_s);
 
 std_msgs::Header makeHeader(const ros::Time& stamp, const std::string& frame_id);
 
 // A copy of the pixels.
-sensor_msgs::Image makeImage(const std_msgs::Header& header, const cv::Mat& pixels, const std::string& encoding);
+sensor_msgs::Image makeImage(const std_msgs::Header& header, const cv::Mat& pixels,
+                             const std::string& encoding);
 // CV_8UC3 BGR as bgr8, CV_8UC1 as mono8. Throws Error for other types.
 sensor_msgs::Image makeColorImage(const std_msgs::Header& header, const cv::Mat& color);
 
@@ -32,10 +34,12 @@ sensor_msgs::CameraInfo makeCameraInfo(const std_msgs::Header& header, const Cam
                                        const LensDistortion& lens = {});
 
 geometry_msgs::Pose toMessage(const Pose& pose);
-// The covariance of the twist (rotation, translation) applied to the pose on the left, in ROS's order (translation first).
+// The covariance of the twist (rotation, translation) applied to the pose on the left, in ROS's order
+// (translation first).
 geometry_msgs::PoseWithCovariance toMessage(const Pose& pose, const Matrix6d& covariance);
 // T_header.frame_id_child.
-geometry_msgs::TransformStamped makeTransform(const std_msgs::Header& header, const std::string& child, const Pose& pose);
+geometry_msgs::TransformStamped makeTransform(const std_msgs::Header& header, const std::string& child,
+                                              const Pose& pose);
 Pose fromMessage(const geometry_msgs::Transform& transform);
 
 }  // namespace depth_fusion

@@ -12,7 +12,8 @@ namespace {
 
 using visualization_msgs::Marker;
 
-// How much light from there a surface gets; softer than Lambert's cosine, so that noise in walls hardly shows.
+// How much light from there a surface gets; softer than Lambert's cosine, so that noise in walls hardly
+// shows.
 float received(const Eigen::Vector3f& light, const Eigen::Vector3f& normal) {
   const float half_lambert = 0.5f + 0.5f * normal.dot(light);
   return half_lambert * half_lambert;

@@ -68,8 +68,8 @@ void addNeck(Solids& solids) {
 // 34 mm wide, at x = 75 mm.
 void addFace(Solids& solids) { solids.push_back(cylinder({0.07, 0, 0}, {0.075, 0, 0}, 0.017, kPrint)); }
 
-// Around the seal's middle in 12 s at 0.2 to 0.25 m, above one side and below the other, slowly where it looks at the
-// face head-on.
+// Around the seal's middle in 12 s at 0.2 to 0.25 m, above one side and below the other, slowly where it
+// looks at the face head-on.
 Gaze sealGaze(const Sway& walk, const Sway& look) {
   const double phase_rad = (30.0 * walk.time_s() - 100.0) * kRadPerDeg;
   const double bearing_rad = phase_rad - 0.9 * std::sin(phase_rad);

@@ -53,7 +53,8 @@ class MeshBatcher {
   MeshBatch next();
 
  private:
-  // The block and those beyond its far sides, as MeshBlockArgs numbers them; kNowhere if not in the list or not needed.
+  // The block and those beyond its far sides, as MeshBlockArgs numbers them; kNowhere if not in the list or
+  // not needed.
   using Neighbours = std::array<size_t, 8>;
   static constexpr size_t kNowhere = static_cast<size_t>(-1);
 

@@ -14,7 +14,8 @@ class SurfaceMeshKernels {
   };
 
   // Allocates memory for batches of up to max_batch_blocks blocks, fewer where that would take too much.
-  SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& map, int min_certainty, size_t max_batch_blocks);
+  SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& map, int min_certainty,
+                     size_t max_batch_blocks);
 
   const BatchLimits& limits() const { return limits_; }
   size_t deviceBytes() const;
@@ -31,7 +32,8 @@ class SurfaceMeshKernels {
   void colorVertices(const MeshBatch& batch, std::vector<MeshColor>& colors);
   void emitTriangles(const MeshBatch& batch, std::vector<MeshTriangle>& triangles);
 
-  // The same on the device alone, of the first `count` blocks: six floats a vertex, three vertices a triangle.
+  // The same on the device alone, of the first `count` blocks: six floats a vertex, three vertices a
+  // triangle.
   const DeviceBuffer& emitVertices(size_t count, uint32_t first_vertex);
   const DeviceBuffer& emitTriangles(size_t count);
 

@@ -71,7 +71,8 @@ ParameterTable FusionParameters::table() {
        0.0,
        "from a voxel to the surface: along its ray, to the plane that the ray hits, or to the plane nearest "
        "to it",
-       {"projective", "plane", "refined"}, true},
+       {"projective", "plane", "refined"},
+       true},
       {"gain_at_1m", &gain_at_1m, 1e-3, 1.0,
        "average: gain (the paper's w_k) of a measurement at 1 m; falls with the variance"},
       {"weight_at_1m", &weight_at_1m, 0.1, 255.0,

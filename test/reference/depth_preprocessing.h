@@ -13,9 +13,7 @@
 namespace depth_fusion::reference {
 
 // Of the default sensor.
-inline double sensorSigma(double depth_m) {
-  return 0.0012 + 0.0019 * (depth_m - 0.4) * (depth_m - 0.4);
-}
+inline double sensorSigma(double depth_m) { return 0.0012 + 0.0019 * (depth_m - 0.4) * (depth_m - 0.4); }
 
 // Calls visit(x, y, pixel) for every pixel of the image.
 template <class Pixel, class Visit>
@@ -132,7 +130,8 @@ inline cv::Mat measurements(const cv::Mat& depth, const cv::Mat& normals, const 
 inline uint32_t packedMeasurement(const cv::Vec3f& measured, double depth_step_m) {
   if (measured[0] == 0.0f) return 0;
   const auto code = [](float fraction) {
-    return static_cast<uint32_t>(std::clamp(std::lround(fraction * MEASUREMENT_MAX), 1l, 1l * MEASUREMENT_MAX));
+    return static_cast<uint32_t>(
+        std::clamp(std::lround(fraction * MEASUREMENT_MAX), 1l, 1l * MEASUREMENT_MAX));
   };
   const auto depth = static_cast<uint32_t>(std::lround(measured[0] / depth_step_m));
   return depth << (2 * MEASUREMENT_BITS) | code(measured[1]) << MEASUREMENT_BITS | code(measured[2]);

@@ -33,7 +33,11 @@ class IcpReference {
  public:
   IcpReference(const OrientedDepth& model, const Pose& T_M_D, double max_distance_m, double min_normal_cosine,
                double huber_sigmas)
-      : model_(model), T_M_D_(T_M_D), max_distance_m_(max_distance_m), min_normal_cosine_(min_normal_cosine), huber_sigmas_(huber_sigmas) {
+      : model_(model),
+        T_M_D_(T_M_D),
+        max_distance_m_(max_distance_m),
+        min_normal_cosine_(min_normal_cosine),
+        huber_sigmas_(huber_sigmas) {
     for (int i = 0; i < 6; ++i) {
       forward_[i] = poseFromTwist(kStep * Vector6d::Unit(i));
       backward_[i] = poseFromTwist(-kStep * Vector6d::Unit(i));

@@ -1,5 +1,5 @@
-// Block selection and the rules of fusion of kernels/tsdf_fusion/*.cl, plainly: sample by sample and voxel by voxel, in
-// double, without rounding to bytes.
+// Block selection and the rules of fusion of kernels/tsdf_fusion/*.cl, plainly: sample by sample and voxel by
+// voxel, in double, without rounding to bytes.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 #include "depth_fusion/geometry/camera_intrinsics.h"
 #include "depth_fusion/geometry/pose.h"
+#include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
 #include "reference/depth_preprocessing.h"
 #include "shared/types.h"
-#include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
 #include "support/map_contents.h"
 
 namespace depth_fusion::reference {

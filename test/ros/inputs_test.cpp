@@ -52,9 +52,9 @@ TEST_F(Inputs, EveryDepthEncoding) {
   cv::Mat metres;
   frames_[2].depth.convertTo(metres, CV_32F, 0.001);
   metres.setTo(std::numeric_limits<float>::quiet_NaN(), frames_[2].depth == 0);
-  const std::vector<sensor_msgs::Image> images = {imageMessage(frames_[0].depth, "16UC1"),
-                                                  imageMessage(frames_[1].depth, "mono16"), imageMessage(metres, "32FC1"),
-                                                  imageMessage(frames_[3].color, "bgr8")};
+  const std::vector<sensor_msgs::Image> images = {
+      imageMessage(frames_[0].depth, "16UC1"), imageMessage(frames_[1].depth, "mono16"),
+      imageMessage(metres, "32FC1"), imageMessage(frames_[3].color, "bgr8")};
   for (size_t i = 0; i < 3; ++i) {
     camera_->publish(frames_[0]);  // for its camera_info; out of order from the second on
     publish(depth, images[i], frames_[i]);
@@ -69,7 +69,8 @@ TEST_F(Inputs, EveryDepthEncoding) {
 TEST_F(Inputs, CompressedTransports) {
   graph_.handle().setParam("texture_odometry/depth_transport", "compressedDepth");
   graph_.handle().setParam("texture_odometry/color_transport", "compressed");
-  ros::Publisher depth = graph_.handle().advertise<sensor_msgs::CompressedImage>("depth/image/compressedDepth", 10);
+  ros::Publisher depth =
+      graph_.handle().advertise<sensor_msgs::CompressedImage>("depth/image/compressedDepth", 10);
   ros::Publisher color = graph_.handle().advertise<sensor_msgs::CompressedImage>("rgb/image/compressed", 10);
   ros::Publisher info = graph_.handle().advertise<sensor_msgs::CameraInfo>("depth/camera_info", 10);
   camera_ = std::make_unique<FakeCamera>(graph_.handle());
@@ -107,7 +108,9 @@ TEST_F(Inputs, CameraInfoLateZeroOrOfAnotherSize) {
   ros::Publisher info = graph_.handle().advertise<sensor_msgs::CameraInfo>("depth/camera_info", 10);
   ASSERT_TRUE(eventually([&] { return depth.getNumSubscribers() > 0 && info.getNumSubscribers() > 0; }));
   camera_ = std::make_unique<FakeCamera>(graph_.handle());
-  const auto publishDepth = [&](const RgbdFrame& frame) { publish(depth, imageMessage(frame.depth, "16UC1"), frame); };
+  const auto publishDepth = [&](const RgbdFrame& frame) {
+    publish(depth, imageMessage(frame.depth, "16UC1"), frame);
+  };
   const auto publishInfo = [&](const CameraIntrinsics& camera) {
     info.publish(makeCameraInfo(camera_->headerOf(frames_[0]), camera));
   };
@@ -207,7 +210,8 @@ TEST(TwoCameras, InTwoNamespacesMapEachForItself) {
   right.handle().setParam("icp_tracking/map_frame", "right_map");
   right.handle().setParam("tsdf_fusion/map_frame", "right_map");
   const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(5));
-  Listener<MapStatus> left_status(left.handle(), "tsdf_fusion/status"), right_status(right.handle(), "tsdf_fusion/status");
+  Listener<MapStatus> left_status(left.handle(), "tsdf_fusion/status"),
+      right_status(right.handle(), "tsdf_fusion/status");
   FakeCamera left_camera(left.handle(), "left_optical"), right_camera(right.handle(), "right_optical");
   left.loadTracking();
   right.loadTracking();
@@ -215,7 +219,8 @@ TEST(TwoCameras, InTwoNamespacesMapEachForItself) {
   for (const RgbdFrame& frame : frames) {
     left_camera.publish(frame);
     right_camera.publish(frame);
-    const auto l = left_status.awaitStamp(toRosTime(frame.stamp_s)), r = right_status.awaitStamp(toRosTime(frame.stamp_s));
+    const auto l = left_status.awaitStamp(toRosTime(frame.stamp_s)),
+               r = right_status.awaitStamp(toRosTime(frame.stamp_s));
     ASSERT_TRUE(l != nullptr && r != nullptr);
     EXPECT_TRUE(l->fused && r->fused);
     EXPECT_NE(l->generation, r->generation);

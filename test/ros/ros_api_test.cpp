@@ -44,7 +44,8 @@ const std::string& documentPath() {
 // What makes a nodelet speak on other topics than by default.
 std::vector<Parameters> variantsOf(const std::string& nodelet, const std::string& recording) {
   if (nodelet == "acquisition")
-    return {{{"recording", recording}, {"publish_clock", "true"}}, {{"device_id", "no such camera"}, {"ir_mode", "640x480"}}};
+    return {{{"recording", recording}, {"publish_clock", "true"}},
+            {{"device_id", "no such camera"}, {"ir_mode", "640x480"}}};
   const std::vector<Parameters> transports = {
       {},
       {{"depth_transport", "compressedDepth"}, {"color_transport", "compressed"}},

@@ -15,7 +15,9 @@ struct Side {
         camera(handle, name + "_optical"),
         reset(handle.serviceClient<std_srvs::Trigger>("tsdf_fusion/reset_volume")) {}
 
-  bool ready() { return camera.awaitSubscribers() && eventually([&] { return map.connected(); }); }
+  bool ready() {
+    return camera.awaitSubscribers() && eventually([&] { return map.connected(); });
+  }
   // The map after a frame; null if no answer comes.
   Listener<MapStatus>::Ptr mapped(const RgbdFrame& frame) {
     camera.publish(frame);

@@ -17,8 +17,8 @@ inline cv::Mat quantised(cv::Mat measurements) {
   return measurements;
 }
 
-// A frame of one level, its depth (CV_32FC1, metres) raw and filtered alike. normals: CV_32FC3; measurements: CV_32FC3
-// as reference::measurements() has them.
+// A frame of one level, its depth (CV_32FC1, metres) raw and filtered alike. normals: CV_32FC3; measurements:
+// CV_32FC3 as reference::measurements() has them.
 inline DepthFrame frameOfDepth(ComputeContext& compute, const CameraIntrinsics& camera, const cv::Mat& depth,
                                const cv::Mat& normals, const cv::Mat& measurements) {
   DepthFrame frame;

@@ -49,7 +49,8 @@ inline Pose somePose(double scale = 1.0) {
 inline View viewOf(const cv::Mat& depth, const Pose& T_W_D = Pose::Identity(),
                    const CameraIntrinsics& camera = kCamera) {
   const cv::Mat normals = quantisedNormals(reference::computeNormals(depth, camera, 0.05));
-  return {camera, T_W_D, depth, normals, quantised(reference::measurements(depth, normals, cv::Mat(), camera))};
+  return {camera, T_W_D, depth, normals,
+          quantised(reference::measurements(depth, normals, cv::Mat(), camera))};
 }
 
 inline DepthFrame frameOf(const View& view) {

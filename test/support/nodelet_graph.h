@@ -60,7 +60,8 @@ class Listener {
   }
   bool awaitCount(size_t count, double patience_s = kPatience_s) const {
     std::unique_lock<std::mutex> lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::duration<double>(patience_s), [&] { return messages_.size() >= count; });
+    return changed_.wait_for(lock, std::chrono::duration<double>(patience_s),
+                             [&] { return messages_.size() >= count; });
   }
   bool connected() const { return subscriber_.getNumPublishers() > 0; }
 
@@ -130,12 +131,14 @@ class FakeCamera {
 
   bool awaitSubscribers() const {
     return eventually([&] {
-      return depth_.getNumSubscribers() > 0 && depth_info_.getNumSubscribers() > 0 && color_.getNumSubscribers() > 0 &&
-             color_info_.getNumSubscribers() > 0;
+      return depth_.getNumSubscribers() > 0 && depth_info_.getNumSubscribers() > 0 &&
+             color_.getNumSubscribers() > 0 && color_info_.getNumSubscribers() > 0;
     });
   }
 
-  std_msgs::Header headerOf(const RgbdFrame& frame) const { return makeHeader(toRosTime(frame.stamp_s), frame_id_); }
+  std_msgs::Header headerOf(const RgbdFrame& frame) const {
+    return makeHeader(toRosTime(frame.stamp_s), frame_id_);
+  }
 
   void publishColor(const RgbdFrame& frame) {
     const std_msgs::Header header = makeHeader(toRosTime(frame.stamp_s), color_frame_id_);
@@ -144,7 +147,8 @@ class FakeCamera {
   }
   sensor_msgs::ImageConstPtr publishDepth(const RgbdFrame& frame) {
     depth_info_.publish(makeCameraInfo(headerOf(frame), frame.intrinsics, frame.distortion));
-    const auto image = boost::make_shared<sensor_msgs::Image>(makeDepthImage(headerOf(frame), frame.depth, frame.depth_unit_m));
+    const auto image = boost::make_shared<sensor_msgs::Image>(
+        makeDepthImage(headerOf(frame), frame.depth, frame.depth_unit_m));
     depth_.publish(image);
     return image;
   }
@@ -165,7 +169,8 @@ inline RgbdFrame inMillimetres(RgbdFrame frame) {
   return frame;
 }
 
-inline std::vector<RgbdFrame> simulatedFrames(const SimulationOptions& options, double first_stamp_s = 100.0) {
+inline std::vector<RgbdFrame> simulatedFrames(const SimulationOptions& options,
+                                              double first_stamp_s = 100.0) {
   SimulatedRecording recording(options);
   std::vector<RgbdFrame> frames;
   while (const auto frame = recording.next()) {

@@ -9,7 +9,8 @@ namespace depth_fusion {
 
 // The normals as words hold them: packed and unpacked.
 inline cv::Mat quantisedNormals(cv::Mat normals) {
-  reference::forEachPixel<cv::Vec3f>(normals, [](int, int, cv::Vec3f& n) { n = unpackedNormal(packedNormal(n)); });
+  reference::forEachPixel<cv::Vec3f>(normals,
+                                     [](int, int, cv::Vec3f& n) { n = unpackedNormal(packedNormal(n)); });
   return normals;
 }
 

@@ -43,7 +43,8 @@ inline void setBlockStates(BlockSparseMap& map) {
       if (distances[voxel] == TSDF_CHI) continue;
       states[block.slot] |= BLOCK_HAS_DATA;
       if (std::abs(distances[voxel]) > near_surface) continue;
-      const int octant = voxel % m / (m / 2) + 2 * (voxel / m % m / (m / 2)) + 4 * (voxel / (m * m) / (m / 2));
+      const int octant =
+          voxel % m / (m / 2) + 2 * (voxel / m % m / (m / 2)) + 4 * (voxel / (m * m) / (m / 2));
       states[block.slot] |= 1 << (octant + BLOCK_NEAR_SURFACE_SHIFT);
     }
   }

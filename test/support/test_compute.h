@@ -13,8 +13,8 @@ inline int numberFromEnvironment(const char* variable) {
   return text == nullptr ? 0 : std::atoi(text);
 }
 
-// The environment variables DEPTH_FUSION_TEST_SIMD_WIDTH (1, 8 or 16) and DEPTH_FUSION_TEST_GROUP_SIZE set the
-// kernels' shape: a width of 1 tests on a CPU the one that they have on a GPU. 0 = the device's.
+// The environment variables DEPTH_FUSION_TEST_SIMD_WIDTH (1, 8 or 16) and DEPTH_FUSION_TEST_GROUP_SIZE set
+// the kernels' shape: a width of 1 tests on a CPU the one that they have on a GPU. 0 = the device's.
 inline int testSimdWidth() { return numberFromEnvironment("DEPTH_FUSION_TEST_SIMD_WIDTH"); }
 inline int testGroupSize() { return numberFromEnvironment("DEPTH_FUSION_TEST_GROUP_SIZE"); }
 

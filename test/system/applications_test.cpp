@@ -162,7 +162,8 @@ TEST_F(Applications, render_draws_the_mesh) {
 
 TEST_F(Applications, color_is_fused_drawn_and_reported) {
   const std::string output = inFolder("color_out");
-  const AppRun run = runApp("reconstruct", {"--input", room(), "--output", output, "--color", "--voxel-size", "0.01"});
+  const AppRun run =
+      runApp("reconstruct", {"--input", room(), "--output", output, "--color", "--voxel-size", "0.01"});
   ASSERT_EQ(run.status, 0) << run.errors;
   const Json report = readReport(output);
   EXPECT_EQ(report["frames"]["colored"], std::stoi(kFrames));
@@ -170,8 +171,8 @@ TEST_F(Applications, color_is_fused_drawn_and_reported) {
   EXPECT_EQ(readReport(out())["map"]["color_bytes"], 0);
   EXPECT_NE(fileBytes(output + "/mesh.ply").substr(0, 400).find("property uchar red"), std::string::npos);
   const auto picture = [&](std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--mesh", output + "/mesh.ply", "--output", inFolder("color.png"), "--width",
-                                       "160", "--height", "120"});
+    arguments.insert(arguments.end(), {"--mesh", output + "/mesh.ply", "--output", inFolder("color.png"),
+                                       "--width", "160", "--height", "120"});
     EXPECT_EQ(runApp("render", arguments).status, 0);
     return fileBytes(inFolder("color.png"));
   };

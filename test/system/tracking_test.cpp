@@ -1,4 +1,5 @@
-// Tracking that holds: on scenes that leave directions free, with fast hands, and through blackouts and jumps.
+// Tracking that holds: on scenes that leave directions free, with fast hands, and through blackouts and
+// jumps.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -17,7 +18,7 @@ namespace {
 
 struct Tracked {
   Trajectory trajectory;
-  std::vector<size_t> lost;        // frames
+  std::vector<size_t> lost;       // frames
   size_t updated_while_lost = 0;  // blocks
   TrajectoryError error;
   double path_m = 0.0;
@@ -36,7 +37,8 @@ Tracked track(Recording& recording, const Trajectory& truth, const PipelineParam
   result.path_m = pathLength(truth);
   std::unique_ptr<ReconstructionPipeline> pipeline;
   for (size_t i = 0; const std::optional<RgbdFrame> frame = recording.next(); ++i) {
-    if (!pipeline) pipeline = std::make_unique<ReconstructionPipeline>(compute(), parameters, frame->intrinsics);
+    if (!pipeline)
+      pipeline = std::make_unique<ReconstructionPipeline>(compute(), parameters, frame->intrinsics);
     const FrameResult frame_result = pipeline->processFrame(*frame);
     if (frame_result.tracking.status == TrackingStatus::kLost) {
       result.lost.push_back(i);
@@ -87,7 +89,8 @@ INSTANTIATE_TEST_SUITE_P(Tracking, FreeDirections, testing::Values("wall", "floo
 TEST(Tracking, icp_alone_slips_along_a_wall) {
   const SimulationOptions options = sceneOptions("wall", 100);
   const Tracked tracked = trackScene(options, icpAlone());
-  EXPECT_GE(tracked.error.ate_m.max, 0.1 * tracked.path_m) << "the control must fail, or the test shows nothing";
+  EXPECT_GE(tracked.error.ate_m.max, 0.1 * tracked.path_m)
+      << "the control must fail, or the test shows nothing";
 }
 
 TEST(Tracking, a_room_without_texture_is_tracked_by_its_geometry) {

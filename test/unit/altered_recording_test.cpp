@@ -35,7 +35,8 @@ TEST(AlteredRecording, BlackFramesThenTheStart) {
   EXPECT_EQ(recording->frameCount(), 12u);
   const auto frames = framesOf(*recording);
   ASSERT_EQ(frames.size(), 12u);
-  for (size_t i = 0; i < 7; ++i) EXPECT_EQ(cv::norm(frames[i].depth, all[i].depth), 0.0) << "changed afterwards?";
+  for (size_t i = 0; i < 7; ++i)
+    EXPECT_EQ(cv::norm(frames[i].depth, all[i].depth), 0.0) << "changed afterwards?";
   for (size_t i = 7; i < 9; ++i) {
     EXPECT_EQ(cv::norm(frames[i].depth) + cv::norm(frames[i].color), 0.0);
     EXPECT_GT(frames[i].stamp_s, frames[i - 1].stamp_s);

@@ -110,7 +110,8 @@ TEST(IcpSystem, EqualsTheReferenceWithNumericalJacobian) {
 }
 
 // The exact system of points with normals: residuals are those of a small motion.
-IcpSystem systemOf(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& surface, const Vector6d& motion) {
+IcpSystem systemOf(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& surface,
+                   const Vector6d& motion) {
   IcpSystem system;
   for (const auto& [p, n] : surface) {
     Vector6d jacobian;
@@ -128,7 +129,8 @@ std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> planes(const std::vecto
     const Eigen::Vector3d a = n.unitOrthogonal();
     const Eigen::Vector3d b = n.cross(a);
     for (int i = -5; i <= 5; ++i) {
-      for (int j = -5; j <= 5; ++j) surface.emplace_back(Eigen::Vector3d(0, 0, 2) + 0.1 * i * a + 0.1 * j * b, n);
+      for (int j = -5; j <= 5; ++j)
+        surface.emplace_back(Eigen::Vector3d(0, 0, 2) + 0.1 * i * a + 0.1 * j * b, n);
     }
   }
   return surface;
@@ -165,7 +167,8 @@ TEST(DegeneracyAnalysis, NamesWhatAPlaneLeavesFree) {
 }
 
 TEST(DegeneracyAnalysis, TwoPlanesLeaveOneDirection) {
-  const DegeneracyAnalysis analysis(systemOf(planes({{0, 1, 0}, {0, 0, 1}}), Vector6d::Ones() * 0.01), kBox, 0.005);
+  const DegeneracyAnalysis analysis(systemOf(planes({{0, 1, 0}, {0, 0, 1}}), Vector6d::Ones() * 0.01), kBox,
+                                    0.005);
   EXPECT_EQ(analysis.freeDirectionNames(), "sliding along x");
 }
 

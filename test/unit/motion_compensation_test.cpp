@@ -24,8 +24,8 @@ Vector6d fastHand() {
 
 Pose startPose() { return SimulatedRecording(SimulationOptions()).poseOf(0).T_W_D; }
 
-// What the room looks like to a sensor that moves with `velocity` and reads row after row, ending kDelay_s before
-// it is at the start pose.
+// What the room looks like to a sensor that moves with `velocity` and reads row after row, ending kDelay_s
+// before it is at the start pose.
 cv::Mat rollingDepth(const Vector6d& velocity) {
   static const SimulatedScene scene = makeScene("room");
   cv::Mat depth(kCamera.height, kCamera.width, CV_32FC1);
@@ -76,7 +76,8 @@ TEST(MotionCompensation, MovesEachRowToTheStamp) {
   EXPECT_LT(medianDifference_m(compensated(rolling, fastHand(), kReadout_s, kDelay_s), stillDepth()), 0.0015);
   EXPECT_GT(medianDifference_m(compensated(rolling, fastHand(), kReadout_s, 0.0f), stillDepth()), 0.002)
       << "without the delay it is compensated to another moment";
-  EXPECT_GT(medianDifference_m(compensated(rolling, -fastHand(), kReadout_s, kDelay_s), stillDepth()), before_m);
+  EXPECT_GT(medianDifference_m(compensated(rolling, -fastHand(), kReadout_s, kDelay_s), stillDepth()),
+            before_m);
 }
 
 TEST(MotionCompensation, LeavesTheDepthOfGlobalShuttersAndStillSensors) {

@@ -56,7 +56,8 @@ TEST_F(Ply, readsTheColorsItWrote) {
   TriangleMesh mesh = tetrahedron();
   mesh.colors = {{0, 1, 2}, {255, 128, 7}, {13, 10, 0}, {200, 201, 202}};
   writePly(path_, mesh);
-  EXPECT_NE(readText().find("property uchar red\nproperty uchar green\nproperty uchar blue\n"), std::string::npos);
+  EXPECT_NE(readText().find("property uchar red\nproperty uchar green\nproperty uchar blue\n"),
+            std::string::npos);
   const TriangleMesh read = readPly(path_);
   EXPECT_EQ(read.colors, mesh.colors);
   EXPECT_EQ(read.triangles, mesh.triangles);
@@ -70,7 +71,8 @@ TEST_F(Ply, readsTheColorsItWrote) {
 // Other tools write colours of other types, or a part of them; neither is one that can be drawn.
 TEST_F(Ply, colorsOfOtherTypesAreLeftOut) {
   writeText(
-      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
+      "float z\n"
       "property float red\nproperty uchar green\nproperty uchar blue\nelement face 0\n"
       "property list uchar int vertex_indices\nend_header\n" +
       std::string(18, '\0'));

@@ -143,7 +143,8 @@ TEST(ReconstructionPipeline, ComesBackAfterABlackoutAndAJump) {
   SimulatedRecording recording(options);
   while (std::optional<RgbdFrame> frame = recording.next()) frames.push_back(std::move(*frame));
   RgbdFrame black = frames.back();
-  for (cv::Mat* image : {&black.depth, &black.color}) *image = cv::Mat(image->size(), image->type(), cv::Scalar::all(0));
+  for (cv::Mat* image : {&black.depth, &black.color})
+    *image = cv::Mat(image->size(), image->type(), cv::Scalar::all(0));
 
   ReconstructionPipeline pipeline(compute(), pipelineParameters(), options.intrinsics);
   for (const RgbdFrame& frame : frames) {
@@ -175,7 +176,8 @@ TEST(ReconstructionPipeline, StaysLostInAnotherPlace) {
   options.frames = 12;
   options.intrinsics = kCamera;
   SimulatedRecording elsewhere(options);
-  while (const std::optional<RgbdFrame> frame = elsewhere.next()) expectLost(pipeline.processFrame(*frame), "");
+  while (const std::optional<RgbdFrame> frame = elsewhere.next())
+    expectLost(pipeline.processFrame(*frame), "");
   EXPECT_TRUE(readMap(pipeline.map()) == before);
 }
 

@@ -23,7 +23,9 @@ cv::Matx33d cameraMatrix() {
 
 // A plane askew before a pinhole camera, its colour the square of a checkerboard.
 float depthAt(const cv::Point2d& ray) { return static_cast<float>(1.0 / (0.6 + 0.25 * ray.x - 0.2 * ray.y)); }
-uchar brightnessAt(const cv::Point2d& ray) { return static_cast<uchar>(128.0 + 100.0 * std::sin(9.0 * ray.x) * std::cos(7.0 * ray.y)); }
+uchar brightnessAt(const cv::Point2d& ray) {
+  return static_cast<uchar>(128.0 + 100.0 * std::sin(9.0 * ray.x) * std::cos(7.0 * ray.y));
+}
 
 RgbdFrame frameOf(bool distorted) {
   RgbdFrame frame;
@@ -38,7 +40,8 @@ RgbdFrame frameOf(bool distorted) {
   }
   cv::undistortPoints(pixels, rays, cameraMatrix(), distorted ? cv::Mat(kDistortion) : cv::Mat());
   for (size_t i = 0; i < pixels.size(); ++i) {
-    frame.depth.at<uint16_t>(pixels[i]) = static_cast<uint16_t>(std::lround(depthAt(rays[i]) / frame.depth_unit_m));
+    frame.depth.at<uint16_t>(pixels[i]) =
+        static_cast<uint16_t>(std::lround(depthAt(rays[i]) / frame.depth_unit_m));
     frame.color.at<cv::Vec3b>(pixels[i]) = cv::Vec3b::all(brightnessAt(rays[i]));
   }
   return frame;
@@ -53,8 +56,10 @@ std::string writeRecording(const TemporaryFolder& folder, const RgbdFrame& frame
 
 std::string calibrationText(const std::string& model) {
   return "image_width: 320\nimage_height: 240\ncamera_name: test\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
-         "  data: [258.65, 0.0, 159.05, 0.0, 258.25, 127.4, 0.0, 0.0, 1.0]\ndistortion_model: " + model +
-         "\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0.2624, -0.9531, -0.0054, 0.0026, 1.1633]\n";
+         "  data: [258.65, 0.0, 159.05, 0.0, 258.25, 127.4, 0.0, 0.0, 1.0]\ndistortion_model: " +
+         model +
+         "\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0.2624, -0.9531, -0.0054, 0.0026, "
+         "1.1633]\n";
 }
 
 std::unique_ptr<Recording> openRegistered(const std::string& path, const RecordingOptions& options) {

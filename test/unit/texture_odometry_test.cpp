@@ -92,7 +92,8 @@ TEST(TextureOdometry, DepthErrorsCountBySensor) {
   options.scene = "seal";
   const SimulatedRecording recording(options);
   const auto frameAt = [&](int i) {
-    const RenderedView view = render(recording.scene().surface, recording.intrinsics(), recording.poseOf(i).T_W_D);
+    const RenderedView view =
+        render(recording.scene().surface, recording.intrinsics(), recording.poseOf(i).T_W_D);
     return frameOf(view, partScanner(), recording.intrinsics(), i);
   };
   const RgbdFrame previous = frameAt(0);
@@ -185,8 +186,8 @@ TEST(TextureOdometry, CovarianceIsThatOfTheErrors) {
   parameters.sigma_scale = 1.0f;
   Vector6d squared_errors = Vector6d::Zero(), variances = Vector6d::Zero();
   for (int trial = 0; trial < kTrials; ++trial) {
-    const TextureOdometryResult result =
-        motionBetween(sensed(firstView(), 100 + 2 * trial), sensed(secondView(), 101 + 2 * trial), parameters);
+    const TextureOdometryResult result = motionBetween(sensed(firstView(), 100 + 2 * trial),
+                                                       sensed(secondView(), 101 + 2 * trial), parameters);
     ASSERT_TRUE(result.found) << result.reason;
     const Pose error = errorOf(result, someMotion());
     const Eigen::AngleAxisd rotation(error.linear());

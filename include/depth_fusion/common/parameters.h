@@ -7,8 +7,8 @@
 
 namespace depth_fusion {
 
-// A row bound to a member of a parameter struct. Minimum and maximum are inclusive and apply to numbers only, choices
-// to texts only (none: any text).
+// A row bound to a member of a parameter struct. Minimum and maximum are inclusive and apply to numbers only,
+// choices to texts only (none: any text).
 struct Parameter {
   std::string name;  // lower_snake_case, with the unit as suffix where it has one (truncation_m)
   std::variant<bool*, int*, float*, std::string*> value;
@@ -30,8 +30,8 @@ ParameterTable withPrefix(const std::string& stage, ParameterTable stage_table);
 // The row of that name. Throws Error for an unknown name, naming the nearest known one.
 const Parameter& findParameter(const ParameterTable& table, const std::string& name);
 
-// Sets one parameter from text. Throws Error for an unknown name, for text that is no value of the parameter's type,
-// and for a value out of range.
+// Sets one parameter from text. Throws Error for an unknown name, for text that is no value of the
+// parameter's type, and for a value out of range.
 void setParameter(const ParameterTable& table, const std::string& name, const std::string& text);
 
 // Sets all the parameters of a YAML file of the form `stage: {name: value}`. Throws Error naming the file.

@@ -16,8 +16,9 @@ class StageTimers {
     Scope(StageTimers& timers, std::string stage)
         : timers_(timers), stage_(std::move(stage)), start_(std::chrono::steady_clock::now()) {}
     ~Scope() {
-      timers_.record(stage_, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
-                                 .count());
+      timers_.record(
+          stage_,
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count());
     }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;

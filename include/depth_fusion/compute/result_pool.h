@@ -20,7 +20,8 @@ class ResultPool {
   // One that nobody holds: the current one if possible, else another, made only if all are held.
   const std::shared_ptr<Result>& next() {
     current_.reset();
-    const auto unused = std::find_if(results_.begin(), results_.end(), [](const auto& r) { return r.use_count() == 1; });
+    const auto unused =
+        std::find_if(results_.begin(), results_.end(), [](const auto& r) { return r.use_count() == 1; });
     std::atomic_thread_fence(std::memory_order_acquire);  // what its last holder did to it is over
     if (unused != results_.end()) return current_ = *unused;
     results_.push_back(make_());

@@ -19,10 +19,13 @@ struct CameraIntrinsics {
 };
 
 inline bool sameCamera(const CameraIntrinsics& a, const CameraIntrinsics& b) {
-  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy;
+  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx &&
+         a.cy == b.cy;
 }
 
-inline std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+inline std::string sizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
 
 // The intrinsics of the image in which each pixel covers 2x2 pixels of the given one.
 inline CameraIntrinsics halved(const CameraIntrinsics& camera) {

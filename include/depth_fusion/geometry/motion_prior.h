@@ -9,7 +9,8 @@ namespace depth_fusion {
 
 struct MotionPrior {
   Pose T_W_D = Pose::Identity();
-  // Of the twist (rotation, translation) applied to T_W_D on the left; none for a guess without a measurement.
+  // Of the twist (rotation, translation) applied to T_W_D on the left; none for a guess without a
+  // measurement.
   std::optional<Matrix6d> covariance;
 };
 

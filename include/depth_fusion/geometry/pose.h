@@ -22,13 +22,14 @@ inline Pose poseFromTwist(const Vector6d& twist) {
   const Eigen::Vector3d rotation = twist.head<3>();
   const double angle_rad = rotation.norm();
   Pose motion = Pose::Identity();
-  if (angle_rad > 0.0) motion.linear() = Eigen::AngleAxisd(angle_rad, rotation / angle_rad).toRotationMatrix();
+  if (angle_rad > 0.0)
+    motion.linear() = Eigen::AngleAxisd(angle_rad, rotation / angle_rad).toRotationMatrix();
   motion.translation() = twist.tail<3>();
   return motion;
 }
 
-// The pose with its rotation made orthonormal. Isometry3d inverts by transposing, so that products of poses and inverses
-// of poses triple a rotation's rounding error each time: whoever chains poses must stop that.
+// The pose with its rotation made orthonormal. Isometry3d inverts by transposing, so that products of poses
+// and inverses of poses triple a rotation's rounding error each time: whoever chains poses must stop that.
 inline Pose orthonormalized(const Pose& pose) {
   Pose result = pose;
   result.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();

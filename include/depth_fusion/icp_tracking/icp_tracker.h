@@ -43,12 +43,12 @@ enum class TrackingStatus {
 
 struct TrackingResult {
   TrackingStatus status = TrackingStatus::kLost;
-  std::string reason;                         // why tracking is lost, or which directions are free; else empty
-  Pose T_W_D = Pose::Identity();              // valid unless lost
-  Matrix6d covariance = Matrix6d::Identity(); // of the twist applied to T_W_D on the left
+  std::string reason;             // why tracking is lost, or which directions are free; else empty
+  Pose T_W_D = Pose::Identity();  // valid unless lost
+  Matrix6d covariance = Matrix6d::Identity();  // of the twist applied to T_W_D on the left
   int inliers = 0;
   double inlier_fraction = 0.0;  // of the frame's points with depth and normal
-  double rmse_m = 0.0;           // of the inliers' point-to-plane distances, weighted by the sensor's accuracy
+  double rmse_m = 0.0;  // of the inliers' point-to-plane distances, weighted by the sensor's accuracy
   double smallest_eigenvalue = 0.0;  // of the system in the unit cube, divided by the matches' weights
   int iterations = 0;
 };
@@ -61,15 +61,18 @@ class IcpTracker {
   struct SystemPrior;
   struct Alignment;
 
-  IcpTracker(ComputeContext& compute, const IcpTrackingParameters& parameters, const CameraIntrinsics& camera);
+  IcpTracker(ComputeContext& compute, const IcpTrackingParameters& parameters,
+             const CameraIntrinsics& camera);
   ~IcpTracker();
 
   // For the frames to come.
   void setParameters(const IcpTrackingParameters& parameters);
 
-  // Aligns the frame to the view, coarse to fine, starting from the prior. A prior with a covariance takes part in the
-  // solution and fills the directions that geometry leaves free; without one, free directions mean that it is lost.
-  TrackingResult track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior, StageTimers& timers);
+  // Aligns the frame to the view, coarse to fine, starting from the prior. A prior with a covariance takes
+  // part in the solution and fills the directions that geometry leaves free; without one, free directions
+  // mean that it is lost.
+  TrackingResult track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior,
+                       StageTimers& timers);
 
  private:
   MatchGates gatesAt(int level) const;

@@ -39,12 +39,14 @@ class ModelViewRenderer {
                     ModelViewParameters parameters = {});
   ~ModelViewRenderer();
 
-  // The map between min_range_m and max_range_m, as the parameters say how. The result stays valid until the next call.
+  // The map between min_range_m and max_range_m, as the parameters say how. The result stays valid until the
+  // next call.
   const ModelView& render(const Pose& T_W_D, float min_range_m, float max_range_m, StageTimers& timers);
   // The last result, valid and unchanged for as long as it is held.
   std::shared_ptr<const ModelView> view() const { return views_.current(); }
 
-  // Pictures of the last view, CV_8UC3 BGR: grey and lit from the camera; in the map's colours, grey where it has none.
+  // Pictures of the last view, CV_8UC3 BGR: grey and lit from the camera; in the map's colours, grey where it
+  // has none.
   cv::Mat shadedPicture();
   // Throws Error if the map holds no colour.
   cv::Mat coloredPicture();
@@ -58,7 +60,7 @@ class ModelViewRenderer {
   CameraIntrinsics camera_;  // of the views
   ResultPool<ModelView> views_;
   DeviceBuffer nearest_, occupied_;  // ranges of the rays
-  DeviceBuffer picture_;  // allocated for the first one
+  DeviceBuffer picture_;             // allocated for the first one
   std::unique_ptr<Kernels> kernels_;
   std::unique_ptr<MeshRenderer> mesh_renderer_;  // null for ray casting
 };

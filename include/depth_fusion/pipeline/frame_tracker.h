@@ -19,16 +19,18 @@ class FrameTracker {
 
   // For the frames to come. Throws Error if they do not fit together.
   void setParameters(const PipelineParameters& parameters);
-  // The first half of tracking, which needs no map: where the frame's texture, by its `motion` against the frame before,
-  // says that the sensor is (the last pose without one), and preprocessing. Follows the answer to the frame before.
+  // The first half of tracking, which needs no map: where the frame's texture, by its `motion` against the
+  // frame before, says that the sensor is (the last pose without one), and preprocessing. Follows the answer
+  // to the frame before.
   MotionPrior prepare(const RgbdFrame& frame, const TextureOdometryResult& motion, StageTimers& timers);
-  // The prepared frame's pose by its depth against `view`, the model view of the last fused frame (null before the first
-  // one: then the frame gets the pose `start`). `features` are those of its texture. A lost frame and those after it are
-  // tried against keyframes and against the last pose, until one fits. Every result is to be answered by accept or
-  // reject.
+  // The prepared frame's pose by its depth against `view`, the model view of the last fused frame (null
+  // before the first one: then the frame gets the pose `start`). `features` are those of its texture. A lost
+  // frame and those after it are tried against keyframes and against the last pose, until one fits. Every
+  // result is to be answered by accept or reject.
   TrackingResult track(const RgbdFrame& frame, const MotionPrior& prior, const FrameFeatures& features,
                        const ModelView* view, StageTimers& timers, const Pose& start = Pose::Identity());
-  // Takes the pose as the one that the next frame is predicted from, and the frame as a keyframe if none is near.
+  // Takes the pose as the one that the next frame is predicted from, and the frame as a keyframe if none is
+  // near.
   void accept(const RgbdFrame& frame, const FrameFeatures& features, const Pose& T_W_D);
   // The frame is lost.
   void reject();

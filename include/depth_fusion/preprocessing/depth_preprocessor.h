@@ -33,15 +33,15 @@ void validateRange(const PreprocessingParameters& parameters, const DepthSensorP
 // A level of the pyramid, on the device (image layout: kernels/shared/types.h).
 struct DepthLevel {
   CameraIntrinsics camera;
-  DeviceBuffer depth;                 // metres, 0 = none
+  DeviceBuffer depth;  // metres, 0 = none
   DeviceBuffer
       normals;  // unit normals towards the camera in frame D, packed (kernels/shared/normal.h), 0 = none
   DepthSensorParameters sensor = {};  // the depth's noise
 };
 
 struct DepthFrame {
-  DeviceBuffer raw_depth;          // metres in range, motion compensated, unfiltered, 0 = none; camera of levels[0]
-  DeviceBuffer max_tiles;          // the largest raw depth of each 8x8 tile, row by row
+  DeviceBuffer raw_depth;  // metres in range, motion compensated, unfiltered, 0 = none; camera of levels[0]
+  DeviceBuffer max_tiles;  // the largest raw depth of each 8x8 tile, row by row
   DeviceBuffer measurements;       // what fusion needs of levels[0]: a word a pixel (kernels/shared/types.h)
   float depth_step_m = 0.0f;       // of the measurements
   std::vector<DepthLevel> levels;  // filtered; full size first, each half the size of the one before
@@ -60,9 +60,9 @@ class DepthPreprocessor {
 
   // For the frames to come. Throws as validateRange does, and changes nothing then.
   void setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
-  // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s); with it the depth becomes that
-  // of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid until the next call.
-  // Throws Error if the type or size of depth or weights is not the expected.
+  // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s); with it the depth
+  // becomes that of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid
+  // until the next call. Throws Error if the type or size of depth or weights is not the expected.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity = Vector6d::Zero());
   // The last result, valid and unchanged for as long as it is held.
   std::shared_ptr<const DepthFrame> result() const { return results_.current(); }

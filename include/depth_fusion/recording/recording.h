@@ -25,14 +25,15 @@ class Recording {
 };
 
 struct RecordingOptions {
-  std::optional<CameraIntrinsics> intrinsics;  // instead of the recording's own (width, height 0: the images')
-  LensDistortion distortion;                   // with intrinsics; without, the recording's own counts
+  std::optional<CameraIntrinsics>
+      intrinsics;             // instead of the recording's own (width, height 0: the images')
+  LensDistortion distortion;  // with intrinsics; without, the recording's own counts
   std::optional<CameraIntrinsics> color_intrinsics;  // of a colour camera beside the depth camera
-  LensDistortion color_distortion;             // with color_intrinsics
-  std::optional<Pose> T_C_D;                   // with color_intrinsics
-  double max_pairing_gap_s = 0.02;             // colour farther from its depth than this is left out
-  std::string depth_topic;                     // bags only; empty: found by type and name
-  std::string color_topic;                     // bags only; empty: found by type and name
+  LensDistortion color_distortion;                   // with color_intrinsics
+  std::optional<Pose> T_C_D;                         // with color_intrinsics
+  double max_pairing_gap_s = 0.02;                   // colour farther from its depth than this is left out
+  std::string depth_topic;                           // bags only; empty: found by type and name
+  std::string color_topic;                           // bags only; empty: found by type and name
 };
 
 // The intrinsics and the distortion of a camera file: this package's camera.yaml, or a calibration as ROS's

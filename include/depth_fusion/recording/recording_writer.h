@@ -19,9 +19,9 @@ class RecordingWriter {
   virtual void finish() = 0;
 };
 
-// A folder in the TUM layout: depth/*.png (metres = value / 5000, or in the first frame's unit if that is finer),
-// rgb/*.png, depth.txt, rgb.txt, groundtruth.txt (for the frames that have a pose) and camera.yaml with the intrinsics
-// and the unit, which openFolder reads back.
+// A folder in the TUM layout: depth/*.png (metres = value / 5000, or in the first frame's unit if that is
+// finer), rgb/*.png, depth.txt, rgb.txt, groundtruth.txt (for the frames that have a pose) and camera.yaml
+// with the intrinsics and the unit, which openFolder reads back.
 std::unique_ptr<RecordingWriter> createTumFolder(const std::string& path);
 
 }  // namespace depth_fusion

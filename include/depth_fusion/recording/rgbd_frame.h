@@ -14,13 +14,13 @@ namespace depth_fusion {
 struct RgbdFrame {
   double stamp_s = 0.0;  // of the depth image
   cv::Mat depth;  // CV_16UC1 in units of depth_unit_m, or CV_32FC1 in units of depth_unit_m; 0, NaN = none
-  double depth_unit_m = 1.0;    // metres a unit of `depth` (0.001 for millimetres)
-  cv::Mat weights;  // CV_32FC1 of the depth's size, or empty: how much fusion trusts each pixel, in (0, 1]; a pixel
-                    // with any other weight, NaN among them, is not fused
-  cv::Mat color;                // CV_8UC3 BGR or CV_8UC1, or empty; nearest in time to `depth`
+  double depth_unit_m = 1.0;  // metres a unit of `depth` (0.001 for millimetres)
+  cv::Mat weights;  // CV_32FC1 of the depth's size, or empty: how much fusion trusts each pixel, in (0, 1]; a
+                    // pixel with any other weight, NaN among them, is not fused
+  cv::Mat color;                        // CV_8UC3 BGR or CV_8UC1, or empty; nearest in time to `depth`
   std::optional<double> color_stamp_s;  // unset: that of the depth
-  std::string color_problem;    // why `color` is empty though the recording has an image
-  CameraIntrinsics intrinsics;  // of the depth camera; width and height equal those of `depth`
+  std::string color_problem;            // why `color` is empty though the recording has an image
+  CameraIntrinsics intrinsics;          // of the depth camera; width and height equal those of `depth`
   std::optional<CameraIntrinsics>
       color_intrinsics;       // unset: colour has the depth camera's, depth is registered to it
   std::optional<Pose> T_C_D;  // unset: depth is registered to colour
@@ -29,7 +29,9 @@ struct RgbdFrame {
 };
 
 // Of the frame's colour image.
-inline CameraIntrinsics colorCamera(const RgbdFrame& frame) { return frame.color_intrinsics.value_or(frame.intrinsics); }
+inline CameraIntrinsics colorCamera(const RgbdFrame& frame) {
+  return frame.color_intrinsics.value_or(frame.intrinsics);
+}
 
 // Why the frame's colour cannot be used; empty if it can.
 inline std::string colorProblem(const RgbdFrame& frame) {

@@ -12,8 +12,9 @@ namespace depth_fusion {
 // sorted by stamp.
 Trajectory readTrajectory(const std::string& path);
 
-// The poses of a file in the TUM format, or those that a recording's folder holds: groundtruth.txt of the TUM layout,
-// frame-XXXXXX.pose.txt of the 7-Scenes layout. Throws Error as readTrajectory, or if the folder holds none.
+// The poses of a file in the TUM format, or those that a recording's folder holds: groundtruth.txt of the TUM
+// layout, frame-XXXXXX.pose.txt of the 7-Scenes layout. Throws Error as readTrajectory, or if the folder
+// holds none.
 Trajectory readPoses(const std::string& file_or_folder);
 
 // Throws Error if the file cannot be written completely.

@@ -33,8 +33,8 @@ class Relocaliser {
   // For the frames to come; keyframes beyond max_keyframes go.
   void setParameters(const RelocalisationParameters& parameters);
 
-  // Keeps the frame as a keyframe if it has features and no keyframe is near. When there are too many, the one that
-  // stands closest to another goes.
+  // Keeps the frame as a keyframe if it has features and no keyframe is near. When there are too many, the
+  // one that stands closest to another goes.
   void add(const FrameFeatures& features, const Pose& T_W_D);
   void reset() { keyframes_.clear(); }
 

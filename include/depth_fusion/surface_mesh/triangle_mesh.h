@@ -26,8 +26,8 @@ struct MeshSize {
 };
 
 // Receives a mesh whose size is known beforehand: begin, then vertices and triangles in turn, each in order,
-// then finish. `colors` holds one a vertex, or is null if the mesh is not coloured. Triangles may name vertices yet to
-// come. Throws Error if the mesh cannot be kept.
+// then finish. `colors` holds one a vertex, or is null if the mesh is not coloured. Triangles may name
+// vertices yet to come. Throws Error if the mesh cannot be kept.
 class MeshSink {
  public:
   virtual ~MeshSink() = default;

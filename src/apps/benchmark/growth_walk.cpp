@@ -21,7 +21,8 @@ std::vector<RgbdFrame> roomViews(int width, size_t count) {
   const CameraIntrinsics camera = kinectSensor().camera;
   const double scale = static_cast<double>(width) / camera.width;
   const int height = static_cast<int>(std::lround(camera.height * scale));
-  options.intrinsics = {width, height, camera.fx * scale, camera.fy * scale, 0.5 * (width - 1), 0.5 * (height - 1)};
+  options.intrinsics = {
+      width, height, camera.fx * scale, camera.fy * scale, 0.5 * (width - 1), 0.5 * (height - 1)};
   SimulatedRecording recording(options);
   std::vector<RgbdFrame> views;
   while (std::optional<RgbdFrame> view = recording.next()) {

@@ -34,10 +34,10 @@ const std::vector<Variant> kGates = {
     {"no normal gate",
      {{"icp_tracking/coarse_normal_angle_rad", "1.5707"}, {"icp_tracking/fine_normal_angle_rad", "1.5707"}}},
     {"no robust loss", {{"icp_tracking/huber_sigmas", "1000"}}},
-    {"no inlier gates",
-     {{"icp_tracking/min_inlier_fraction", "0"}, {"icp_tracking/min_inliers", "6"}}},
+    {"no inlier gates", {{"icp_tracking/min_inlier_fraction", "0"}, {"icp_tracking/min_inliers", "6"}}},
     {"no rmse gate", {{"icp_tracking/max_rmse_m", "1"}}},
-    {"no jump gate", {{"icp_tracking/max_translation_m", "100"}, {"icp_tracking/max_rotation_rad", "3.1416"}}},
+    {"no jump gate",
+     {{"icp_tracking/max_translation_m", "100"}, {"icp_tracking/max_rotation_rad", "3.1416"}}},
     {"no eigenvalue gate", {{"icp_tracking/degeneracy_threshold", "0"}}},
     {"no relocalisation gate", {{"relocalisation/min_inlier_fraction", "0"}}},
     {"no keyframes", {{"relocalisation/max_keyframes", "0"}}}};
@@ -106,7 +106,8 @@ Outcome runVariant(ComputeContext& compute, const TrackingInput& input, const st
 }
 
 std::string tableHead() {
-  return "| input | variant | frames | lost | degenerate | ATE RMSE, mm | drift, mm (% of the path) | wrong |\n"
+  return "| input | variant | frames | lost | degenerate | ATE RMSE, mm | drift, mm (% of the path) | wrong "
+         "|\n"
          "|---|---|---|---|---|---|---|---|\n";
 }
 
@@ -120,14 +121,16 @@ std::string tableRow(const TrackingInput& input, const Variant& variant, const O
 }
 
 // The variants' meshes side by side, all seen from where the last one is seen best.
-void drawMeshes(const std::string& path, const std::vector<Variant>& variants, const std::vector<Outcome>& outcomes) {
+void drawMeshes(const std::string& path, const std::vector<Variant>& variants,
+                const std::vector<Outcome>& outcomes) {
   const CameraIntrinsics camera = pictureCamera(640, 480, CV_PI / 3.0);
   if (outcomes.back().mesh.vertices.empty()) return;
   const Pose T_W_C = viewOf(outcomes.back().mesh, camera, viewNames().front());
   std::vector<cv::Mat> pictures;
   for (size_t i = 0; i < variants.size(); ++i) {
     pictures.push_back(renderMesh(outcomes[i].mesh, camera, T_W_C));
-    cv::putText(pictures[i], variants[i].name, {12, 28}, cv::FONT_HERSHEY_SIMPLEX, 0.8, cv::Scalar::all(230.0), 2, cv::LINE_AA);
+    cv::putText(pictures[i], variants[i].name, {12, 28}, cv::FONT_HERSHEY_SIMPLEX, 0.8,
+                cv::Scalar::all(230.0), 2, cv::LINE_AA);
   }
   cv::Mat row;
   cv::hconcat(pictures, row);
@@ -157,9 +160,12 @@ void runBenchmark(const TrackingBenchmark& options) {
 
 void addTrackingBenchmark(CLI::App& app, TrackingBenchmark& options) {
   CLI::App* command = app.add_subcommand(
-      "tracking", "ICP / ICP + texture / ICP + texture + eigenvalues on scenes and recordings: a table, and the meshes");
-  command->add_option("--output", options.output, "folder for the table and the pictures")->capture_default_str();
-  command->add_option("--data", options.data, "folder of the real recordings [$DEPTH_FUSION_DATA or ../shared/data]");
+      "tracking",
+      "ICP / ICP + texture / ICP + texture + eigenvalues on scenes and recordings: a table, and the meshes");
+  command->add_option("--output", options.output, "folder for the table and the pictures")
+      ->capture_default_str();
+  command->add_option("--data", options.data,
+                      "folder of the real recordings [$DEPTH_FUSION_DATA or ../shared/data]");
   command->add_option("--cfg", options.cfg, "folder of the sensors' parameter files")->capture_default_str();
   command->add_option("--device", options.device, "OpenCL device, as of reconstruct");
   command->add_option("--input", options.inputs, "only these inputs");

@@ -1,5 +1,5 @@
-// benchmark tracking: what texture odometry, the eigenvalue analysis and each of the gates do for tracking (the paper's
-// registration figure).
+// benchmark tracking: what texture odometry, the eigenvalue analysis and each of the gates do for tracking
+// (the paper's registration figure).
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -34,7 +34,8 @@ TrackingInput recorded(const std::string& name, const std::string& folder, const
   RecordingOptions options;
   if (!camera.empty()) readCamera(camera, options);
   loadParameterFile(input.parameters.table(), params);
-  input.parameters.model_view.half_size = false;  // to compare with other inputs, and with benchmarks of before
+  input.parameters.model_view.half_size =
+      false;  // to compare with other inputs, and with benchmarks of before
   input.open = [folder, options, compute = std::make_shared<ComputeContext>(),
                 parameters = input.parameters.registration] {
     return registered(openFolder(folder, options), *compute, parameters);
@@ -49,7 +50,8 @@ TrackingInput atTenHertz(TrackingInput input) {
   return input;
 }
 
-TrackingInput withInterruption(TrackingInput input, const std::string& what, const Interruption& interruption) {
+TrackingInput withInterruption(TrackingInput input, const std::string& what,
+                               const Interruption& interruption) {
   input.name += what;
   input.open = [open = input.open, interruption] { return interrupted(open, interruption); };
   input.truth = repeated(input.truth);
@@ -68,7 +70,8 @@ std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
   const std::string data = dataFolder(options.data);
   const std::string tum = data + "/tum_fr1_xyz", kitchen = data + "/redkitchen";
   if (std::filesystem::exists(tum)) {
-    const TrackingInput desk = recorded("tum_fr1_xyz", tum, kinect, options.cfg + "/cameras/tum_freiburg1.yaml");
+    const TrackingInput desk =
+        recorded("tum_fr1_xyz", tum, kinect, options.cfg + "/cameras/tum_freiburg1.yaml");
     inputs.insert(inputs.end(), {desk, atTenHertz(desk), withInterruption(desk, "_blackout", {30, 100}),
                                  withInterruption(desk, "_jump", {0, 100})});
   }
@@ -101,7 +104,8 @@ std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options) {
   if (options.inputs.empty()) return all;
   std::vector<TrackingInput> chosen;
   for (const std::string& name : options.inputs) {
-    const auto input = std::find_if(all.begin(), all.end(), [&](const TrackingInput& i) { return i.name == name; });
+    const auto input =
+        std::find_if(all.begin(), all.end(), [&](const TrackingInput& i) { return i.name == name; });
     std::string names;
     for (const TrackingInput& known : all) names += (names.empty() ? "" : ", ") + known.name;
     check(input != all.end(), "there is no input '" + name + "'; the inputs are: " + names);

@@ -1,4 +1,5 @@
-// What trackers are tried on: scenes that leave directions free, fast hands, real recordings, and those made harder.
+// What trackers are tried on: scenes that leave directions free, fast hands, real recordings, and those made
+// harder.
 #pragma once
 
 #include "apps/benchmark/tracking.h"

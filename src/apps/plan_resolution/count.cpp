@@ -5,9 +5,9 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/evaluation/block_count.h"
+#include "depth_fusion/pipeline/posed_preprocessor.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/trajectory_file.h"
-#include "depth_fusion/pipeline/posed_preprocessor.h"
 #include "depth_fusion/registration/frame_registration.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "pipeline/depth_in_range.h"

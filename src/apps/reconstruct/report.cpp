@@ -28,7 +28,9 @@ nlohmann::ordered_json trackingJson(const RunCounts& counts, const Reconstructio
     losses.push_back({{"first_frame", loss.first_frame}, {"frames", loss.frames}, {"reason", loss.reason}});
   }
   return {{"states",
-           {{"tracking", counts.tracked - counts.degenerate}, {"degenerate", counts.degenerate}, {"lost", counts.lost}}},
+           {{"tracking", counts.tracked - counts.degenerate},
+            {"degenerate", counts.degenerate},
+            {"lost", counts.lost}}},
           {"losses", losses},
           {"keyframes", pipeline.keyframeCount()}};
 }
@@ -49,24 +51,26 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
   for (const auto& [stage, samples_ms] : pipeline.timers().samplesMs()) {
     (stage == "frame" ? frame : stages[stage]) = statisticsJson(samples_ms);
   }
-  const nlohmann::ordered_json report = {
-      {"input", input},
-      {"device", compute.selfTestReport()},
-      {"parameters", parametersJson(pipeline.parameters())},
-      {"frames",
-       {{"read", counts.read}, {"tracked", counts.tracked}, {"lost", counts.lost},
-         {"unreadable", counts.unreadable}, {"colored", counts.colored}}},
-      {"tracking", trackingJson(counts, pipeline)},
-      {"frame_ms", frame},
-      {"stage_ms", stages},
-      {"map",
-       {{"blocks", usage.blocks},
-        {"capacity", usage.capacity},
-        {"bytes", usage.bytes},
-        {"color_bytes", usage.color_bytes},
-        {"pool_bytes", usage.pool_bytes}}},
-      {"peak_rss_bytes", peakRssBytes()},
-      {"tracking_peak_rss_bytes", tracking_peak_rss_bytes}};
+  const nlohmann::ordered_json report = {{"input", input},
+                                         {"device", compute.selfTestReport()},
+                                         {"parameters", parametersJson(pipeline.parameters())},
+                                         {"frames",
+                                          {{"read", counts.read},
+                                           {"tracked", counts.tracked},
+                                           {"lost", counts.lost},
+                                           {"unreadable", counts.unreadable},
+                                           {"colored", counts.colored}}},
+                                         {"tracking", trackingJson(counts, pipeline)},
+                                         {"frame_ms", frame},
+                                         {"stage_ms", stages},
+                                         {"map",
+                                          {{"blocks", usage.blocks},
+                                           {"capacity", usage.capacity},
+                                           {"bytes", usage.bytes},
+                                           {"color_bytes", usage.color_bytes},
+                                           {"pool_bytes", usage.pool_bytes}}},
+                                         {"peak_rss_bytes", peakRssBytes()},
+                                         {"tracking_peak_rss_bytes", tracking_peak_rss_bytes}};
   writeText(path, report.dump(2) + '\n');
 }
 

@@ -168,8 +168,10 @@ void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
   }
   if (result.fusion.points_outside > 0 && !window_was_left_) {
     window_was_left_ = true;
-    std::cerr << "reconstruct: " << result.fusion.points_outside << " samples of the surface lie outside of the map's "
-              << "window at frame " << counts_.read << " and are left out; raise map/blocks_per_axis" << std::endl;
+    std::cerr << "reconstruct: " << result.fusion.points_outside
+              << " samples of the surface lie outside of the map's "
+              << "window at frame " << counts_.read << " and are left out; raise map/blocks_per_axis"
+              << std::endl;
   }
 }
 
@@ -187,14 +189,14 @@ void Run::noteLoss(const std::string& reason) {
 void Run::noteColor(const RgbdFrame& frame) {
   if (frame.color_problem.empty() || color_was_bad_) return;
   color_was_bad_ = true;
-  std::cerr << "reconstruct: " << frame.color_problem << "; only the frame's depth is used, and so with others like it"
-            << std::endl;
+  std::cerr << "reconstruct: " << frame.color_problem
+            << "; only the frame's depth is used, and so with others like it" << std::endl;
 }
 
 void Run::say(const std::string& event) const {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
-  std::cout << (terminal ? "\r" : "") << "frame " << counts_.read << ": " << event << (terminal ? "\033[K" : "")
-            << std::endl;
+  std::cout << (terminal ? "\r" : "") << "frame " << counts_.read << ": " << event
+            << (terminal ? "\033[K" : "") << std::endl;
 }
 
 void Run::showProgress(bool last) {
@@ -203,8 +205,9 @@ void Run::showProgress(bool last) {
   const double frame_ms = medianFrame_ms();
   const size_t all = recording_->frameCount();
   std::printf("%sframe %zu/%zu  %.1f ms (%.0f fps)  %zu blocks  %zu lost  %-30s%s", terminal ? "\r" : "",
-              counts_.read, options_.max_frames == 0 ? all : std::min(all, options_.max_frames), frame_ms, frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0,
-              pipeline_->map().usage().blocks, counts_.lost, status_.c_str(), terminal && !last ? "" : "\n");
+              counts_.read, options_.max_frames == 0 ? all : std::min(all, options_.max_frames), frame_ms,
+              frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0, pipeline_->map().usage().blocks, counts_.lost,
+              status_.c_str(), terminal && !last ? "" : "\n");
   std::fflush(stdout);
 }
 
@@ -220,7 +223,8 @@ void Run::writeResults() {
   attempt([&] { writeTrajectory(folder + "trajectory.txt", trajectory_); });
   if (!options_.no_mesh) attempt([&] { writeMesh(folder + "mesh.ply"); });
   attempt([&] {
-    writeReport(folder + "report.json", options_.input, compute_, *pipeline_, counts_, tracking_peak_rss_bytes);
+    writeReport(folder + "report.json", options_.input, compute_, *pipeline_, counts_,
+                tracking_peak_rss_bytes);
   });
 }
 

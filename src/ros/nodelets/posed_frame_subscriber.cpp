@@ -5,8 +5,8 @@
 namespace depth_fusion {
 
 PosedFrameSubscriber::PosedFrameSubscriber(ros::NodeHandle handle, const RgbdParameters& rgbd,
-                                           const std::string& device, const std::string& map_frame, int queue_size,
-                                           FrameCounter& counter, Callback callback)
+                                           const std::string& device, const std::string& map_frame,
+                                           int queue_size, FrameCounter& counter, Callback callback)
     : map_frame_(map_frame), counter_(counter), callback_(std::move(callback)) {
   listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_, handle);
   filter_ = std::make_unique<tf2_ros::MessageFilter<Message>>(buffer_, map_frame_, queue_size, handle);
@@ -17,9 +17,10 @@ PosedFrameSubscriber::PosedFrameSubscriber(ros::NodeHandle handle, const RgbdPar
         buffer_.canTransform(map_frame_, message->header.frame_id, message->header.stamp, &why);
         drop(why);
       });
-  sensor_ = std::make_unique<RgbdSubscriber>(handle, rgbd, device, counter_, [this](const SensorFramePtr& sensor) {
-    filter_->add(makeMessage<SensorFrame>(sensor->header, sensor));
-  });
+  sensor_ =
+      std::make_unique<RgbdSubscriber>(handle, rgbd, device, counter_, [this](const SensorFramePtr& sensor) {
+        filter_->add(makeMessage<SensorFrame>(sensor->header, sensor));
+      });
 }
 
 PosedFrameSubscriber::~PosedFrameSubscriber() {

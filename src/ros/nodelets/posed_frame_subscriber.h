@@ -19,7 +19,8 @@ class PosedFrameSubscriber {
   // At most `queue_size` frames wait for their pose; those that find no room are dropped, counted, and warned
   // of.
   PosedFrameSubscriber(ros::NodeHandle handle, const RgbdParameters& rgbd, const std::string& device,
-                       const std::string& map_frame, int queue_size, FrameCounter& counter, Callback callback);
+                       const std::string& map_frame, int queue_size, FrameCounter& counter,
+                       Callback callback);
   // Waits for what its callbacks are at.
   ~PosedFrameSubscriber();
 

@@ -1,4 +1,5 @@
-// What nodelets of one manager hand to each other by pointer: data on the compute device, features, shared images.
+// What nodelets of one manager hand to each other by pointer: data on the compute device, features, shared
+// images.
 #pragma once
 
 #include <ros/message_traits.h>
@@ -11,8 +12,8 @@
 
 namespace depth_fusion {
 
-// A message whose payload never leaves the process. To other processes it is its header (so that `rostopic hz` works); what
-// comes from them has no payload.
+// A message whose payload never leaves the process. To other processes it is its header (so that `rostopic
+// hz` works); what comes from them has no payload.
 template <class Payload>
 struct ProcessMessage {
   using Ptr = boost::shared_ptr<ProcessMessage>;

@@ -13,11 +13,18 @@ std::string textOf(XmlRpc::XmlRpcValue value, const std::string& name) {
   std::ostringstream text;
   text.precision(std::numeric_limits<double>::max_digits10);
   switch (value.getType()) {
-    case XmlRpc::XmlRpcValue::TypeBoolean: return static_cast<bool>(value) ? "true" : "false";
-    case XmlRpc::XmlRpcValue::TypeInt: text << static_cast<int>(value); return text.str();
-    case XmlRpc::XmlRpcValue::TypeDouble: text << static_cast<double>(value); return text.str();
-    case XmlRpc::XmlRpcValue::TypeString: return static_cast<std::string>(value);
-    default: throw Error("parameter " + name + " is neither a number nor a text nor a truth value");
+    case XmlRpc::XmlRpcValue::TypeBoolean:
+      return static_cast<bool>(value) ? "true" : "false";
+    case XmlRpc::XmlRpcValue::TypeInt:
+      text << static_cast<int>(value);
+      return text.str();
+    case XmlRpc::XmlRpcValue::TypeDouble:
+      text << static_cast<double>(value);
+      return text.str();
+    case XmlRpc::XmlRpcValue::TypeString:
+      return static_cast<std::string>(value);
+    default:
+      throw Error("parameter " + name + " is neither a number nor a text nor a truth value");
   }
 }
 

@@ -9,8 +9,8 @@
 
 namespace depth_fusion {
 
-// Sets the rows from the parameters of the node handle's namespace. Throws Error for a parameter that is no row (naming the
-// nearest one), of another type, or out of range.
+// Sets the rows from the parameters of the node handle's namespace. Throws Error for a parameter that is no
+// row (naming the nearest one), of another type, or out of range.
 void loadParameters(const ros::NodeHandle& handle, const ParameterTable& table);
 
 }  // namespace depth_fusion

@@ -50,14 +50,15 @@ void TextureOdometryNodelet::start() {
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
   table.push_back(deviceRow(device_));
   table.push_back({"odom_frame",
-                    &odom_frame_,
-                    0,
-                    0,
-                    "frame of the odometry: where the sensor was in the first frame",
-                    {},
-                    true});
+                   &odom_frame_,
+                   0,
+                   0,
+                   "frame of the odometry: where the sensor was in the first frame",
+                   {},
+                   true});
   table.push_back(queueSizeRow(queue_size_));
-  loadParameters(table, {{"registration", rgbd_.registration.table()}, {"depth_sensor", depth_sensor_.table()}});
+  loadParameters(table,
+                 {{"registration", rgbd_.registration.table()}, {"depth_sensor", depth_sensor_.table()}});
   odometry_ = std::make_unique<TextureOdometry>(parameters_, depth_sensor_);
 
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
@@ -66,8 +67,9 @@ void TextureOdometryNodelet::start() {
   worker_ = std::make_unique<Worker<SensorFramePtr>>(
       queue_size_, [this](const SensorFramePtr& frame) { process(frame); },
       [this](const SensorFramePtr&) { counter_.drop(kTooSlow); });
-  subscriber_ = std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, device_, counter_,
-                                                 [this](const SensorFramePtr& frame) { worker_->push(frame); });
+  subscriber_ =
+      std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, device_, counter_,
+                                       [this](const SensorFramePtr& frame) { worker_->push(frame); });
   startReporting();
 }
 
