@@ -1,5 +1,5 @@
 // Kernel arguments, compiled by host and device alike: members of four bytes only, so that both lay them out
-// alike (test/unit/shared_types_test.cpp compares the layouts).
+// alike (test/unit/compute/shared_types_test.cpp compares the layouts).
 #ifndef DEPTH_FUSION_SHARED_TYPES_H
 #define DEPTH_FUSION_SHARED_TYPES_H
 

@@ -4,12 +4,12 @@
 
 #include "apps/command_line.h"
 #include "depth_fusion/common/error.h"
-#include "depth_fusion/evaluation/mesh_error.h"
-#include "depth_fusion/evaluation/trajectory_plot.h"
+#include "tools/evaluation/mesh_error.h"
+#include "tools/plots/trajectory_plot.h"
 #include "depth_fusion/recording/trajectory_file.h"
-#include "depth_fusion/simulation/scene_library.h"
+#include "tools/simulation/scene_library.h"
 #include "depth_fusion/surface_mesh/ply.h"
-#include "recording/image_file.h"
+#include "common/io/image_file.h"
 
 namespace depth_fusion {
 namespace {

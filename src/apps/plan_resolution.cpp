@@ -5,9 +5,9 @@
 #include "apps/command_line.h"
 #include "apps/plan_resolution/count.h"
 #include "depth_fusion/common/error.h"
-#include "depth_fusion/evaluation/memory_plot.h"
-#include "recording/image_file.h"
-#include "recording/text_file.h"
+#include "tools/plots/memory_plot.h"
+#include "common/io/image_file.h"
+#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

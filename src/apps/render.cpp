@@ -5,7 +5,7 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/surface_mesh/mesh_picture.h"
 #include "depth_fusion/surface_mesh/ply.h"
-#include "recording/image_file.h"
+#include "common/io/image_file.h"
 
 namespace depth_fusion {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compute/kernel.h"
-#include "depth_fusion/model_view/model_view.h"
+#include "depth_fusion/model_view/model_view_renderer.h"
 #include "map/slots_in_view.h"
 #include "shared/types.h"
 

@@ -6,7 +6,7 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
-#include "preprocessing/depth_preprocessing_kernels.h"
+#include "preprocessing/preprocessing_kernels.h"
 
 namespace depth_fusion {
 namespace {
@@ -33,7 +33,7 @@ PreprocessingParameters limited(PreprocessingParameters parameters, const DepthS
 const CameraIntrinsics& checked(const CameraIntrinsics& camera) {
   check(camera.valid(),
         "the depth camera's intrinsics are not valid; give them with --intrinsics fx,fy,cx,cy");
-  check(std::min(camera.width, camera.height) >> (DepthPreprocessor::kLevels - 1) > 2,
+  check(std::min(camera.width, camera.height) >> (DepthFrame::kLevels - 1) > 2,
         "depth images of " + sizeText(camera.width, camera.height) + " are too small");
   return camera;
 }
@@ -44,7 +44,7 @@ std::shared_ptr<DepthFrame> makeResult(ComputeContext& compute, CameraIntrinsics
   result->measurements = zeroImage(compute, camera);
   result->max_tiles =
       DeviceBuffer(compute, sizeof(float) * tiles(camera.width) * tiles(camera.height), "depth tiles");
-  for (int level = 0; level < DepthPreprocessor::kLevels; ++level) {
+  for (int level = 0; level < DepthFrame::kLevels; ++level) {
     result->levels.push_back({camera, zeroImage(compute, camera), zeroImage(compute, camera)});
     camera = halved(camera);
   }
@@ -53,38 +53,8 @@ std::shared_ptr<DepthFrame> makeResult(ComputeContext& compute, CameraIntrinsics
 
 }  // namespace
 
-ParameterTable PreprocessingParameters::table() {
-  return {
-      {"min_range_m", &min_range_m, 0.0, 100.0, "nearer depth is left out"},
-      {"max_range_m", &max_range_m, 0.01, 100.0, "farther depth is left out"},
-      {"depth_offsets_per_m", &depth_offsets_per_m, 0.0, 0.0,
-       "columns, rows and, row by row over the image, what to add to the inverse depth (1/m), as calibrate "
-       "writes it; "
-       "empty: nothing"},
-      {"readout_s", &readout_s, 0.0, 1.0,
-       "rolling shutter: from the first row's exposure to the last's; 0: all at once (global shutter)"},
-      {"stamp_delay_s", &stamp_delay_s, -1.0, 1.0, "from the last row's exposure to the stamp"},
-      {"bilateral_sigma_px", &bilateral_sigma_px, 0.1, 10.0, "width of the bilateral filter in the image"},
-      {"bilateral_cutoff_sigmas", &bilateral_cutoff_sigmas, 0.1, 100.0,
-       "depth difference, in standard deviations of the sensor, at which a neighbour counts no more"},
-      {"max_relative_step", &max_relative_step, 0.001, 1.0,
-       "depth step between neighbours two pixels apart, as a fraction of the depth, across which no normal "
-       "is computed"}};
-}
-
-void validateRange(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor) {
-  validate(PreprocessingParameters(parameters).table());
-  validate(DepthSensorParameters(sensor).table());
-  parseDepthOffsets(parameters.depth_offsets_per_m);
-  check(parameters.min_range_m < std::min(parameters.max_range_m, sensor.maxRange_m()),
-        "preprocessing/min_range_m must be below preprocessing/max_range_m and the range of "
-        "depth_sensor/max_sigma_m");
-}
-
-float DepthFrame::maxRange_m() const { return depth_step_m * MEASUREMENT_DEPTH_MAX; }
-
-struct DepthPreprocessor::Kernels : DepthPreprocessingKernels {
-  using DepthPreprocessingKernels::DepthPreprocessingKernels;
+struct DepthPreprocessor::Kernels : PreprocessingKernels {
+  using PreprocessingKernels::PreprocessingKernels;
 };
 
 DepthPreprocessor::DepthPreprocessor(ComputeContext& compute, const PreprocessingParameters& parameters,
@@ -139,7 +109,7 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
   kernels_->maxTiles(result.raw_depth, result.max_tiles, camera);
   kernels_->filterBilateral(result.raw_depth, result.levels[0].depth, camera, toArgs(result.levels[0].sensor),
                             bilateral);
-  for (int i = 0; i < kLevels; ++i) {
+  for (int i = 0; i < DepthFrame::kLevels; ++i) {
     DepthLevel& level = result.levels[i];
     if (i > 0) kernels_->halveDepth(result.levels[i - 1], level, parameters_.bilateral_cutoff_sigmas);
     kernels_->computeNormals(level.depth, level.normals, level.camera, parameters_.max_relative_step);

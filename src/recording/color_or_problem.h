@@ -2,7 +2,7 @@
 #pragma once
 
 #include "depth_fusion/common/error.h"
-#include "depth_fusion/recording/rgbd_frame.h"
+#include "depth_fusion/frames/rgbd_frame.h"
 
 namespace depth_fusion {
 

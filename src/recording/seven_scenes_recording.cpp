@@ -7,9 +7,9 @@
 #include "depth_fusion/common/error.h"
 #include "recording/color_or_problem.h"
 #include "recording/folder_recording.h"
-#include "recording/image_file.h"
+#include "common/io/image_file.h"
 #include "recording/recording_intrinsics.h"
-#include "recording/text_file.h"
+#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

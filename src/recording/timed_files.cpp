@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "depth_fusion/common/error.h"
-#include "recording/text_file.h"
+#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

@@ -5,7 +5,7 @@
 #include "recording/camera_file.h"
 #include "recording/color_or_problem.h"
 #include "recording/folder_recording.h"
-#include "recording/image_file.h"
+#include "common/io/image_file.h"
 #include "recording/recording_intrinsics.h"
 #include "recording/timed_files.h"
 

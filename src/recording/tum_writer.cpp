@@ -7,8 +7,8 @@
 #include "depth_fusion/recording/trajectory_file.h"
 #include "recording/camera_file.h"
 #include "recording/depth_units.h"
-#include "recording/image_file.h"
-#include "recording/text_file.h"
+#include "common/io/image_file.h"
+#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

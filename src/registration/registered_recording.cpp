@@ -1,4 +1,5 @@
-// A recording whose frames are registered.
+#include "depth_fusion/registration/registered_recording.h"
+
 #include "depth_fusion/registration/frame_registration.h"
 
 namespace depth_fusion {

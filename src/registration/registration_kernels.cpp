@@ -24,8 +24,8 @@ LensArgs lensArgs(const CameraIntrinsics& camera, const LensDistortion& lens, co
 RegistrationKernels::RegistrationKernels(ComputeContext& compute)
     : simd_width_(compute.impl().simd_width),
       splat_(compute),
-      from_u16_(compute, "preprocessing/depth_preprocessing.cl", "depth_to_metres_u16"),
-      from_f32_(compute, "preprocessing/depth_preprocessing.cl", "depth_to_metres_f32"),
+      from_u16_(compute, "preprocessing/preprocessing.cl", "depth_to_metres_u16"),
+      from_f32_(compute, "preprocessing/preprocessing.cl", "depth_to_metres_f32"),
       rectify_(compute, "registration/resample_depth.cl", "rectify_depth"),
       register_(compute, "registration/resample_depth.cl", "register_depth") {}
 

@@ -4,13 +4,6 @@
 
 namespace depth_fusion {
 
-ParameterTable SurfaceMeshParameters::table() {
-  return {{"min_certainty", &min_certainty, 0, 255,
-           "certainty (see tsdf_fusion/rule) from which on a voxel counts as known"},
-          {"max_batch_blocks", &max_batch_blocks, 8, 8192,
-           "blocks extracted at a time, if 16 MiB hold so many; fewer take less memory"}};
-}
-
 MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockSparseMap& map, MeshSink& sink,
                                  SurfaceMeshParameters parameters) {
   validate(parameters.table());

@@ -1,7 +1,7 @@
 // BRIEF (Calonder et al. 2012), upright: between frames the camera hardly rolls.
 #pragma once
 
-#include "depth_fusion/texture_odometry/frame_features.h"
+#include "depth_fusion/frames/frame_features.h"
 
 namespace depth_fusion {
 

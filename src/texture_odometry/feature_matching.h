@@ -1,7 +1,7 @@
 // Pairs of features that look alike.
 #pragma once
 
-#include "depth_fusion/texture_odometry/frame_features.h"
+#include "depth_fusion/frames/frame_features.h"
 
 namespace depth_fusion {
 

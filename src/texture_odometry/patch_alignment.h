@@ -1,7 +1,7 @@
 // Where a feature's patch lies in another image, to a fraction of a pixel.
 #pragma once
 
-#include "depth_fusion/texture_odometry/frame_features.h"
+#include "depth_fusion/frames/frame_features.h"
 
 namespace depth_fusion {
 

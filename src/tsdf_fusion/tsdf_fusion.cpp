@@ -6,7 +6,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "map/map_args.h"
-#include "preprocessing/sensor_args.h"
+#include "frames/sensor_args.h"
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
 namespace depth_fusion {
@@ -14,13 +14,13 @@ namespace {
 
 constexpr int kRequestCapacity = 65536;
 
-FusionParameters validated(FusionParameters parameters) {
+TsdfFusionParameters validated(TsdfFusionParameters parameters) {
   validate(parameters.table());
   return parameters;
 }
 
 // By the Kalman filter, a distance whose sigma is above half the truncation says nothing any more.
-int minCertainty(const FusionParameters& parameters, const MapParameters& map, float units_per_m2) {
+int minCertainty(const TsdfFusionParameters& parameters, const MapParameters& map, float units_per_m2) {
   const float variance = units_per_m2 * (0.25f * map.truncation_m * map.truncation_m);
   return parameters.rule == "kalman" ? std::max(certaintyOf(variance), 1) : 1;
 }
@@ -44,7 +44,7 @@ SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& ca
   return args;
 }
 
-FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,
+FusionArgs fusionArgs(const TsdfFusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,
                       int frame_number) {
   const DepthSensorParameters& sensor = frame.levels[0].sensor;
   FusionArgs args{};
@@ -62,31 +62,7 @@ FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& m
   return args;
 }
 
-ParameterTable FusionParameters::table() {
-  return {
-      {"rule", &rule, 0.0, 0.0, "how measurements change a voxel", {"kalman", "weighted", "average"}, true},
-      {"distance",
-       &distance,
-       0.0,
-       0.0,
-       "from a voxel to the surface: along its ray, to the plane that the ray hits, or to the plane nearest "
-       "to it",
-       {"projective", "plane", "refined"},
-       true},
-      {"gain_at_1m", &gain_at_1m, 1e-3, 1.0,
-       "average: gain (the paper's w_k) of a measurement at 1 m; falls with the variance"},
-      {"weight_at_1m", &weight_at_1m, 0.1, 255.0,
-       "weighted: weight (w_k) of a measurement at 1 m; falls with the variance"},
-      {"max_weight", &max_weight, 1.0, 255.0, "weighted: bound of a voxel's weight (W_max)"},
-      {"process_sigma_m", &process_sigma_m, 0.0, 0.05,
-       "kalman: how far a surface may move in a frame, the square root of Q"},
-      {"free_space_sigmas", &free_space_sigmas, 0.0, 100.0,
-       "how far beyond the truncation the surface must be for a voxel to be free, in standard deviations"},
-      {"free_space_rate", &free_space_rate, 0.0, 0.9,
-       "part of its certainty that a free voxel loses a frame"}};
-}
-
-TsdfFusion::TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const FusionParameters& parameters)
+TsdfFusion::TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const TsdfFusionParameters& parameters)
     : compute_(compute),
       map_(map),
       parameters_(validated(parameters)),
@@ -99,7 +75,7 @@ TsdfFusion::TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const Fusio
 
 TsdfFusion::~TsdfFusion() = default;
 
-void TsdfFusion::setParameters(const FusionParameters& parameters) {
+void TsdfFusion::setParameters(const TsdfFusionParameters& parameters) {
   check(parameters.rule == parameters_.rule && parameters.distance == parameters_.distance,
         "tsdf_fusion/rule and tsdf_fusion/distance cannot change while the map is built");
   parameters_ = validated(parameters);

@@ -4,7 +4,7 @@
 
 #include "geometry/kernel_args.h"
 #include "map/map_args.h"
-#include "preprocessing/sensor_args.h"
+#include "frames/sensor_args.h"
 
 namespace depth_fusion {
 namespace {
@@ -21,7 +21,7 @@ std::string positionOf(const std::string& name, const std::vector<std::string>& 
   return std::to_string(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-std::string ruleOptions(const FusionParameters& parameters) {
+std::string ruleOptions(const TsdfFusionParameters& parameters) {
   return " -DFUSION_RULE=" + positionOf(parameters.rule, kRules) +
          " -DFUSION_DISTANCE=" + positionOf(parameters.distance, kDistances);
 }
@@ -29,7 +29,7 @@ std::string ruleOptions(const FusionParameters& parameters) {
 }  // namespace
 
 TsdfFusion::Kernels::Kernels(ComputeContext& compute, const BlockSparseMap& map,
-                             const FusionParameters& parameters)
+                             const TsdfFusionParameters& parameters)
     : in_view_(compute, map),
       simd_width_(compute.impl().simd_width),
       items_per_block_(itemsPerBlock(map.parameters(), simd_width_)),

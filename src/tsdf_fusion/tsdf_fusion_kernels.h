@@ -14,12 +14,12 @@ int certaintyOf(float variance);
 // Sampling points lie at most half a block apart across the rays, at a depth of 3 m, and along them.
 SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& camera);
 
-FusionArgs fusionArgs(const FusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,
+FusionArgs fusionArgs(const TsdfFusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,
                       int frame_number);
 
 class TsdfFusion::Kernels {
  public:
-  Kernels(ComputeContext& compute, const BlockSparseMap& map, const FusionParameters& parameters = {});
+  Kernels(ComputeContext& compute, const BlockSparseMap& map, const TsdfFusionParameters& parameters = {});
 
   void requestBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& requests,
                      DeviceBuffer& count, DeviceBuffer& points_outside, const Pose& T_W_D,

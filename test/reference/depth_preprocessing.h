@@ -1,4 +1,4 @@
-// The kernels of kernels/preprocessing/depth_preprocessing.cl, plainly: pixel by pixel, in double.
+// The kernels of kernels/preprocessing/preprocessing.cl, plainly: pixel by pixel, in double.
 #pragma once
 
 #include <algorithm>

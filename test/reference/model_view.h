@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "depth_fusion/model_view/model_view.h"
+#include "depth_fusion/model_view/model_view_renderer.h"
 #include "shared/types.h"
 #include "support/map_contents.h"
 

@@ -114,7 +114,7 @@ inline Distance distanceTo(const View& view, const cv::Vec3f& measured, const Ei
 
 // The measurement of a voxel of a block. All rays through a block are as long as the one through its middle.
 inline Measurement measure(const View& view, const Pose& T_D_W, const MapParameters& map,
-                           const FusionParameters& fusion, const BlockSparseMap::BlockIndex& block,
+                           const TsdfFusionParameters& fusion, const BlockSparseMap::BlockIndex& block,
                            const Eigen::Vector3i& voxel) {
   const double margin_px = 3e-3;
   const double margin_steps = 0.02;
@@ -166,7 +166,7 @@ struct FilterStep {
 };
 
 // Algorithms 1, 2 and 3 of the paper.
-inline FilterStep filterStep(const Voxel& old, double variance_m2, const FusionParameters& fusion) {
+inline FilterStep filterStep(const Voxel& old, double variance_m2, const TsdfFusionParameters& fusion) {
   const double quality = std::pow(sensorSigma(1.0), 2) / variance_m2;
   if (fusion.rule == "average") {
     if (!old.known) return {1.0, 1.0};
@@ -183,7 +183,7 @@ inline FilterStep filterStep(const Voxel& old, double variance_m2, const FusionP
   return {gain, certaintyOf((1.0 - gain) * predicted_m2)};
 }
 
-inline Voxel fuse(const Voxel& old, const Measurement& measured, const FusionParameters& fusion) {
+inline Voxel fuse(const Voxel& old, const Measurement& measured, const TsdfFusionParameters& fusion) {
   if (measured.kind == Measurement::kNone) return old;
   Voxel result = old;
   if (measured.kind == Measurement::kFree) {

@@ -1,7 +1,7 @@
 // Diagnostics: in every state of the sensor and of the map, what is wrong and what to do about it.
 #include "support/diagnostics.h"
 
-#include "ros/nodelets/shared_map.h"
+#include "ros/in_process/shared_map.h"
 #include "support/live_graph.h"
 
 namespace depth_fusion {

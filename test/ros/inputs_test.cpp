@@ -1,5 +1,5 @@
 // Images as drivers really send them.
-#include "ros/nodelets/frames.h"
+#include "ros/in_process/frames.h"
 #include "support/bag_messages.h"
 #include "support/nodelet_graph.h"
 

@@ -2,8 +2,8 @@
 #include <atomic>
 #include <thread>
 
-#include "ros/nodelets/frames.h"
-#include "ros/nodelets/shared_map.h"
+#include "ros/in_process/frames.h"
+#include "ros/in_process/shared_map.h"
 #include "support/live_graph.h"
 
 namespace depth_fusion {

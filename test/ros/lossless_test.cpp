@@ -2,8 +2,8 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
-#include "ros/nodelets/shared_map.h"
-#include "ros/recording.h"
+#include "ros/in_process/shared_map.h"
+#include "ros/bags/open_recording.h"
 #include "support/map_contents.h"
 #include "support/nodelet_graph.h"
 #include "support/temporary_folder.h"

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "depth_fusion/evaluation/mesh_error.h"
+#include "tools/evaluation/mesh_error.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <thread>
 
-#include "depth_fusion/evaluation/mesh_error.h"
+#include "tools/evaluation/mesh_error.h"
 #include "depth_fusion/surface_mesh/ply.h"
-#include "ros/recording.h"
+#include "ros/bags/open_recording.h"
 #include "support/diagnostics.h"
 #include "support/temporary_folder.h"
 

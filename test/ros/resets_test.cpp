@@ -1,8 +1,8 @@
 // Resets of the map: nothing of what was before is left, whatever is on its way.
 #include <thread>
 
-#include "ros/nodelets/frames.h"
-#include "ros/nodelets/shared_map.h"
+#include "ros/in_process/frames.h"
+#include "ros/in_process/shared_map.h"
 #include "support/live_graph.h"
 
 namespace depth_fusion {

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "ros/recording.h"
+#include "ros/bags/open_recording.h"
 #include "support/nodelet_graph.h"
 #include "support/temporary_folder.h"
 

@@ -3,9 +3,9 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
-#include "depth_fusion/evaluation/mesh_error.h"
-#include "ros/nodelets/frames.h"
-#include "ros/nodelets/shared_map.h"
+#include "tools/evaluation/mesh_error.h"
+#include "ros/in_process/frames.h"
+#include "ros/in_process/shared_map.h"
 #include "support/diagnostics.h"
 #include "support/distorted_view.h"
 

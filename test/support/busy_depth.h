@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "depth_fusion/compute/device_image.h"
-#include "depth_fusion/recording/rgbd_frame.h"
+#include "depth_fusion/frames/rgbd_frame.h"
 #include "geometry/kernel_args.h"
 #include "reference/depth_preprocessing.h"
 

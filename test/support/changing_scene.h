@@ -7,10 +7,11 @@
 #include <map>
 #include <numeric>
 
-#include "depth_fusion/evaluation/mesh_error.h"
+#include "depth_fusion/surface_mesh/surface_mesh.h"
+#include "tools/evaluation/mesh_error.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
-#include "depth_fusion/simulation/camera_path.h"
-#include "depth_fusion/simulation/sensor_model.h"
+#include "tools/simulation/camera_path.h"
+#include "tools/simulation/sensor_model.h"
 
 namespace depth_fusion {
 

@@ -4,8 +4,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "depth_fusion/recording/rgbd_frame.h"
-#include "depth_fusion/simulation/renderer.h"
+#include "depth_fusion/frames/rgbd_frame.h"
+#include "tools/simulation/renderer.h"
 
 namespace depth_fusion {
 

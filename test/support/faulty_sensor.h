@@ -5,8 +5,8 @@
 #include <functional>
 #include <opencv2/core.hpp>
 
-#include "depth_fusion/calibration/depth_calibration.h"
-#include "depth_fusion/simulation/scene_library.h"
+#include "tools/calibration/depth_calibration.h"
+#include "tools/simulation/scene_library.h"
 
 namespace depth_fusion {
 

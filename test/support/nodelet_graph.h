@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "depth_fusion/simulation/simulated_recording.h"
-#include "ros/messages.h"
+#include "tools/simulation/simulated_recording.h"
+#include "ros/conversions/messages.h"
 #include "support/simulated_frames.h"
 
 namespace depth_fusion {

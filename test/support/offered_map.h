@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "ros/nodelets/shared_map.h"
+#include "ros/in_process/shared_map.h"
 #include "support/changing_map.h"
 
 namespace depth_fusion {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "depth_fusion/compute/device_image.h"
-#include "depth_fusion/model_view/model_view.h"
+#include "depth_fusion/model_view/model_view_renderer.h"
 #include "reference/map_from_distance.h"
 #include "shared/types.h"
 #include "support/map_contents.h"

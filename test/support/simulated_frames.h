@@ -3,8 +3,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "depth_fusion/recording/rgbd_frame.h"
-#include "depth_fusion/simulation/simulated_recording.h"
+#include "depth_fusion/frames/rgbd_frame.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 

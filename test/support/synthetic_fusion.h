@@ -1,9 +1,10 @@
 // Whole runs on a simulated recording, in memory.
 #pragma once
 
-#include "depth_fusion/evaluation/mesh_error.h"
+#include "depth_fusion/surface_mesh/surface_mesh.h"
+#include "tools/evaluation/mesh_error.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
-#include "depth_fusion/simulation/simulated_recording.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 

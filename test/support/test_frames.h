@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "depth_fusion/recording/rgbd_frame.h"
+#include "depth_fusion/frames/rgbd_frame.h"
 
 namespace depth_fusion {
 

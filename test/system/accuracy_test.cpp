@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "depth_fusion/evaluation/trajectory_error.h"
+#include "tools/evaluation/trajectory_error.h"
 #include "support/synthetic_fusion.h"
 
 namespace depth_fusion {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "depth_fusion/recording/trajectory_file.h"
-#include "recording/text_file.h"
+#include "common/io/text_file.h"
 #include "recording/timed_files.h"
 #include "support/apps.h"
 

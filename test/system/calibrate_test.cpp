@@ -4,7 +4,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "depth_fusion/evaluation/trajectory_error.h"
+#include "tools/evaluation/trajectory_error.h"
 #include "depth_fusion/recording/recording_writer.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "support/apps.h"

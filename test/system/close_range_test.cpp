@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "depth_fusion/evaluation/trajectory_error.h"
+#include "tools/evaluation/trajectory_error.h"
 #include "shared/types.h"
 #include "support/map_contents.h"
 #include "support/synthetic_fusion.h"

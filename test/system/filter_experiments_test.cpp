@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "depth_fusion/evaluation/wall_experiment.h"
+#include "tools/evaluation/wall_experiment.h"
 
 namespace depth_fusion {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "recording/text_file.h"
+#include "common/io/text_file.h"
 #include "support/apps.h"
 
 namespace depth_fusion {

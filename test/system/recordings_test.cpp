@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "depth_fusion/evaluation/trajectory_error.h"
+#include "tools/evaluation/trajectory_error.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "support/apps.h"

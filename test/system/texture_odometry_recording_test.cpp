@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "depth_fusion/evaluation/trajectory_error.h"
+#include "tools/evaluation/trajectory_error.h"
 #include "depth_fusion/recording/recording.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/texture_odometry/texture_odometry.h"

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "depth_fusion/evaluation/trajectory_error.h"
+#include "tools/evaluation/trajectory_error.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/trajectory_file.h"
-#include "depth_fusion/simulation/simulated_recording.h"
+#include "tools/simulation/simulated_recording.h"
 #include "recording/altered_recording.h"
 #include "support/real_data.h"
 #include "support/test_compute.h"

@@ -4,33 +4,15 @@
 #include <memory>
 #include <string>
 
-#include "depth_fusion/common/parameters.h"
+#include "depth_fusion/color_fusion/color_fusion_parameters.h"
 #include "depth_fusion/common/stage_timers.h"
+#include "depth_fusion/frames/mapping_result.h"
+#include "depth_fusion/frames/rgbd_frame.h"
 #include "depth_fusion/geometry/pose.h"
 #include "depth_fusion/map/block_sparse_map.h"
-#include "depth_fusion/preprocessing/depth_preprocessor.h"
+#include "depth_fusion/frames/depth_frame.h"
 
 namespace depth_fusion {
-
-struct ColorFusionParameters {
-  float weight_at_1m = 16.0f;
-  float max_weight = 64.0f;
-  float max_relative_step = 0.03f;
-  float hidden_sigmas = 2.0f;
-  bool match_exposure = true;
-  bool align = true;
-  int sample_stride_px = 4;
-  float blur_exponent = 3.0f;
-
-  ParameterTable table();
-};
-
-struct ColorFusionResult {
-  bool fused = false;
-  std::string reason;                                     // why not
-  Eigen::Array3d exposure_gain = Eigen::Array3d::Ones();  // from the image's blue, green, red to the map's
-  Pose T_C_W = Pose::Identity();  // of the colour camera, where its colours fit the map's
-};
 
 struct SurfaceColor;
 

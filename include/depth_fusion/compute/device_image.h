@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "depth_fusion/compute/compute_context.h"
 #include "depth_fusion/compute/device_buffer.h"
 #include "depth_fusion/geometry/camera_intrinsics.h"
 

@@ -5,22 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "depth_fusion/common/parameters.h"
 #include "depth_fusion/compute/compute_context.h"
 #include "depth_fusion/compute/device_buffer.h"
+#include "depth_fusion/map/map_parameters.h"
 
 namespace depth_fusion {
-
-struct MapParameters {
-  float voxel_size_m = 0.005f;
-  int blocks_per_axis = 256;
-  int block_size = 8;
-  float truncation_m = 0.0f;  // 0 = four voxels
-  int pool_mib = 512;
-  bool color = false;
-
-  ParameterTable table();
-};
 
 // 2 * blocks * M^3 + 4 * N^3, the paper's formula; 6 in place of 2 with colour.
 size_t mapBytes(const MapParameters& map, size_t blocks);

@@ -5,7 +5,11 @@
 #include <memory>
 #include <optional>
 
+#include "depth_fusion/icp_tracking/icp_tracker.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
+#include "depth_fusion/preprocessing/depth_preprocessor.h"
+#include "depth_fusion/relocalisation/relocaliser.h"
+#include "depth_fusion/texture_odometry/texture_odometry.h"
 
 namespace depth_fusion {
 

@@ -4,15 +4,13 @@
 
 #include <memory>
 
-#include "depth_fusion/model_view/model_view.h"
+#include "depth_fusion/frames/mapping_result.h"
+#include "depth_fusion/color_fusion/color_fusion.h"
+#include "depth_fusion/model_view/model_view_renderer.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
+#include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
 
 namespace depth_fusion {
-
-struct MappingResult {
-  FusionResult fusion;
-  ColorFusionResult color;
-};
 
 class Mapper {
  public:

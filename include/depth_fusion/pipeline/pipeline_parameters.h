@@ -1,16 +1,17 @@
 // The parameters of all the stages.
 #pragma once
 
-#include "depth_fusion/color_fusion/color_fusion.h"
-#include "depth_fusion/icp_tracking/icp_tracker.h"
-#include "depth_fusion/map/block_sparse_map.h"
-#include "depth_fusion/model_view/model_view.h"
-#include "depth_fusion/preprocessing/depth_preprocessor.h"
-#include "depth_fusion/registration/frame_registration.h"
-#include "depth_fusion/relocalisation/relocaliser.h"
-#include "depth_fusion/surface_mesh/surface_mesh.h"
-#include "depth_fusion/texture_odometry/texture_odometry.h"
-#include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
+#include "depth_fusion/color_fusion/color_fusion_parameters.h"
+#include "depth_fusion/frames/depth_sensor.h"
+#include "depth_fusion/icp_tracking/icp_tracking_parameters.h"
+#include "depth_fusion/map/map_parameters.h"
+#include "depth_fusion/model_view/model_view_parameters.h"
+#include "depth_fusion/preprocessing/preprocessing_parameters.h"
+#include "depth_fusion/registration/registration_parameters.h"
+#include "depth_fusion/relocalisation/relocalisation_parameters.h"
+#include "depth_fusion/surface_mesh/surface_mesh_parameters.h"
+#include "depth_fusion/texture_odometry/texture_odometry_parameters.h"
+#include "depth_fusion/tsdf_fusion/tsdf_fusion_parameters.h"
 
 namespace depth_fusion {
 
@@ -22,7 +23,7 @@ struct PipelineParameters {
   TextureOdometryParameters texture_odometry;
   IcpTrackingParameters icp_tracking;
   RelocalisationParameters relocalisation;
-  FusionParameters tsdf_fusion;
+  TsdfFusionParameters tsdf_fusion;
   ColorFusionParameters color_fusion;
   ModelViewParameters model_view;
   SurfaceMeshParameters surface_mesh;

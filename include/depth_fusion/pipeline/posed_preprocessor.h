@@ -3,7 +3,9 @@
 
 #include <optional>
 
+#include "depth_fusion/common/stage_timers.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
+#include "depth_fusion/preprocessing/depth_preprocessor.h"
 
 namespace depth_fusion {
 

@@ -1,6 +1,7 @@
 // Readies the device before the first frame comes.
 #pragma once
 
+#include "depth_fusion/compute/compute_context.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 
 namespace depth_fusion {

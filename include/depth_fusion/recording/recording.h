@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "depth_fusion/recording/rgbd_frame.h"
+#include "depth_fusion/frames/rgbd_frame.h"
 
 namespace depth_fusion {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "depth_fusion/recording/rgbd_frame.h"
+#include "depth_fusion/frames/rgbd_frame.h"
 
 namespace depth_fusion {
 

@@ -5,20 +5,11 @@
 
 #include <memory>
 
-#include "depth_fusion/common/parameters.h"
 #include "depth_fusion/compute/compute_context.h"
-#include "depth_fusion/recording/recording.h"
+#include "depth_fusion/frames/rgbd_frame.h"
+#include "depth_fusion/registration/registration_parameters.h"
 
 namespace depth_fusion {
-
-struct RegistrationParameters {
-  float depth_unit_m = 0.0f;
-  float depth_scale = 1.0f;
-  bool depth_to_color = false;
-  float max_relative_step = 0.03f;
-
-  ParameterTable table();
-};
 
 // The frame's images have to be changed.
 bool needsRegistration(const RgbdFrame& frame, const RegistrationParameters& parameters);
@@ -53,9 +44,5 @@ class FrameRegistration {
   std::unique_ptr<Depth> depth_;  // null before the first frame that needs them
   std::unique_ptr<Color> color_;
 };
-
-// The recording with its frames registered.
-std::unique_ptr<Recording> registered(std::unique_ptr<Recording> recording, ComputeContext& compute,
-                                      const RegistrationParameters& parameters);
 
 }  // namespace depth_fusion

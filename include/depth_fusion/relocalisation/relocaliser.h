@@ -4,20 +4,10 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "depth_fusion/common/parameters.h"
-#include "depth_fusion/texture_odometry/frame_features.h"
+#include "depth_fusion/frames/frame_features.h"
+#include "depth_fusion/relocalisation/relocalisation_parameters.h"
 
 namespace depth_fusion {
-
-struct RelocalisationParameters {
-  float keyframe_distance_m = 0.2f;
-  float keyframe_angle_rad = 0.25f;
-  int max_keyframes = 200;
-  int max_candidates = 5;
-  float min_inlier_fraction = 0.5f;
-
-  ParameterTable table();
-};
 
 // A frame of the past that a new one can be matched to; some 200 kB.
 struct Keyframe {

@@ -1,18 +1,11 @@
 // Marching cubes over the block-sparse map.
 #pragma once
 
-#include "depth_fusion/common/parameters.h"
 #include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/surface_mesh/surface_mesh_parameters.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
 
 namespace depth_fusion {
-
-struct SurfaceMeshParameters {
-  int min_certainty = 1;
-  int max_batch_blocks = 3072;
-
-  ParameterTable table();
-};
 
 struct MeshStatistics {
   MeshSize size;

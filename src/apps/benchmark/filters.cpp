@@ -8,8 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "depth_fusion/common/error.h"
-#include "depth_fusion/evaluation/line_plot.h"
-#include "depth_fusion/evaluation/wall_experiment.h"
+#include "tools/plots/line_plot.h"
+#include "tools/evaluation/wall_experiment.h"
 
 namespace depth_fusion {
 namespace {

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <fstream>
 
-#include "depth_fusion/evaluation/line_plot.h"
-#include "depth_fusion/evaluation/power_law.h"
-#include "recording/image_file.h"
-#include "recording/text_file.h"
+#include "tools/plots/line_plot.h"
+#include "tools/evaluation/power_law.h"
+#include "common/io/image_file.h"
+#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "apps/benchmark/resolution.h"
 #include "depth_fusion/common/error.h"
-#include "depth_fusion/evaluation/line_plot.h"
-#include "recording/image_file.h"
-#include "recording/text_file.h"
+#include "tools/plots/line_plot.h"
+#include "common/io/image_file.h"
+#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "depth_fusion/evaluation/line_plot.h"
-#include "recording/image_file.h"
-#include "recording/text_file.h"
+#include "tools/plots/line_plot.h"
+#include "common/io/image_file.h"
+#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

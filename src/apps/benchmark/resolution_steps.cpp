@@ -7,7 +7,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/percentile.h"
-#include "depth_fusion/simulation/simulated_recording.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/surface_mesh/surface_mesh.h"
+#include "depth_fusion/surface_mesh/triangle_mesh.h"
 
 namespace depth_fusion {
 namespace {

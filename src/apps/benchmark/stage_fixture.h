@@ -3,6 +3,7 @@
 
 #include "apps/benchmark/tracking_inputs.h"
 #include "depth_fusion/color_fusion/color_fusion.h"
+#include "depth_fusion/registration/frame_registration.h"
 #include "icp_tracking/icp_tracking_kernels.h"
 
 namespace depth_fusion {

@@ -11,7 +11,7 @@
 #include "apps/benchmark/stage_benchmarks.h"
 #include "apps/benchmark/tracking_inputs.h"
 #include "depth_fusion/common/error.h"
-#include "depth_fusion/simulation/simulated_recording.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {

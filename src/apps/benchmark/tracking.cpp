@@ -8,9 +8,10 @@
 
 #include "apps/benchmark/tracking_inputs.h"
 #include "depth_fusion/common/error.h"
-#include "depth_fusion/evaluation/trajectory_error.h"
+#include "depth_fusion/surface_mesh/surface_mesh.h"
+#include "tools/evaluation/trajectory_error.h"
 #include "depth_fusion/surface_mesh/mesh_picture.h"
-#include "recording/text_file.h"
+#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/recording/trajectory_file.h"
-#include "depth_fusion/registration/frame_registration.h"
-#include "depth_fusion/simulation/simulated_recording.h"
+#include "depth_fusion/registration/registered_recording.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {

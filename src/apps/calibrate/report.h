@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "depth_fusion/calibration/time_offset.h"
+#include "tools/calibration/time_offset.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 
 namespace depth_fusion {

@@ -1,7 +1,7 @@
 // A recording, tracked: what calibration needs of it.
 #pragma once
 
-#include "depth_fusion/calibration/time_offset.h"
+#include "tools/calibration/time_offset.h"
 #include "depth_fusion/recording/recording.h"
 
 namespace depth_fusion {

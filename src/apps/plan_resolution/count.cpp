@@ -4,14 +4,14 @@
 #include <iostream>
 
 #include "depth_fusion/common/error.h"
-#include "depth_fusion/evaluation/block_count.h"
+#include "tools/evaluation/block_count.h"
 #include "depth_fusion/pipeline/posed_preprocessor.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/trajectory_file.h"
-#include "depth_fusion/registration/frame_registration.h"
+#include "depth_fusion/registration/registered_recording.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "pipeline/depth_in_range.h"
-#include "ros/recording.h"
+#include "ros/bags/open_recording.h"
 
 namespace depth_fusion {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "depth_fusion/evaluation/resolution_plan.h"
+#include "tools/evaluation/resolution_plan.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "depth_fusion/recording/recording.h"
 

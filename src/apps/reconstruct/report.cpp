@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "depth_fusion/common/percentile.h"
-#include "recording/text_file.h"
+#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

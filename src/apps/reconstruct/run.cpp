@@ -14,9 +14,10 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/percentile.h"
 #include "depth_fusion/recording/trajectory_file.h"
-#include "depth_fusion/registration/frame_registration.h"
+#include "depth_fusion/registration/registered_recording.h"
 #include "depth_fusion/surface_mesh/ply.h"
-#include "ros/recording.h"
+#include "depth_fusion/surface_mesh/surface_mesh.h"
+#include "ros/bags/open_recording.h"
 
 namespace depth_fusion {
 namespace {

@@ -2,8 +2,8 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <thread>
 
-#include "ros/nodelets/device_publisher.h"
-#include "ros/nodelets/recording_player.h"
+#include "ros/input/device_publisher.h"
+#include "ros/input/recording_player.h"
 #include "ros/nodelets/stage_nodelet.h"
 
 namespace depth_fusion {

@@ -2,14 +2,14 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "depth_fusion/pipeline/frame_tracker.h"
-#include "ros/nodelets/fusion_link.h"
-#include "ros/nodelets/pose_publisher.h"
-#include "ros/nodelets/rgbd_subscriber.h"
-#include "ros/nodelets/shared_map.h"
-#include "ros/nodelets/skipped_frames.h"
+#include "ros/in_process/fusion_link.h"
+#include "ros/output/pose_publisher.h"
+#include "ros/input/rgbd_subscriber.h"
+#include "ros/in_process/shared_map.h"
+#include "ros/in_process/skipped_frames.h"
 #include "ros/nodelets/stage_nodelet.h"
-#include "ros/nodelets/status_messages.h"
-#include "ros/nodelets/worker.h"
+#include "ros/conversions/status_messages.h"
+#include "ros/in_process/worker.h"
 
 namespace depth_fusion {
 

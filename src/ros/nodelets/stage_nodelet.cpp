@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "depth_fusion/common/percentile.h"
-#include "ros/nodelets/ros_parameters.h"
+#include "ros/parameters/ros_parameters.h"
 
 namespace depth_fusion {
 namespace {

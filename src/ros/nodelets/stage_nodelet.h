@@ -14,9 +14,9 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/stage_timers.h"
-#include "ros/nodelets/frame_counter.h"
-#include "ros/nodelets/process_message.h"
-#include "ros/nodelets/reconfigure_server.h"
+#include "ros/input/frame_counter.h"
+#include "ros/in_process/process_message.h"
+#include "ros/parameters/reconfigure_server.h"
 
 namespace depth_fusion {
 

@@ -6,10 +6,10 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "depth_fusion/surface_mesh/simplification.h"
-#include "ros/nodelets/live_surface.h"
-#include "ros/nodelets/mesh_export.h"
+#include "ros/output/live_surface.h"
+#include "ros/output/mesh_export.h"
 #include "ros/nodelets/stage_nodelet.h"
-#include "ros/surface_messages.h"
+#include "ros/conversions/surface_messages.h"
 
 namespace depth_fusion {
 

@@ -3,10 +3,10 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "ros/messages.h"
-#include "ros/nodelets/rgbd_subscriber.h"
+#include "ros/conversions/messages.h"
+#include "ros/input/rgbd_subscriber.h"
 #include "ros/nodelets/stage_nodelet.h"
-#include "ros/nodelets/worker.h"
+#include "ros/in_process/worker.h"
 
 namespace depth_fusion {
 

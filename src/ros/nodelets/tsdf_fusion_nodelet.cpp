@@ -7,13 +7,13 @@
 
 #include "depth_fusion/pipeline/posed_preprocessor.h"
 #include "depth_fusion/pipeline/warm_up.h"
-#include "ros/messages.h"
-#include "ros/nodelets/model_picture.h"
-#include "ros/nodelets/posed_frame_subscriber.h"
-#include "ros/nodelets/shared_map.h"
+#include "ros/conversions/messages.h"
+#include "ros/output/model_picture.h"
+#include "ros/input/posed_frame_subscriber.h"
+#include "ros/in_process/shared_map.h"
 #include "ros/nodelets/stage_nodelet.h"
-#include "ros/nodelets/status_messages.h"
-#include "ros/nodelets/worker.h"
+#include "ros/conversions/status_messages.h"
+#include "ros/in_process/worker.h"
 
 namespace depth_fusion {
 

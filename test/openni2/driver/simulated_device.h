@@ -5,7 +5,7 @@
 #include <string>
 #include <thread>
 
-#include "depth_fusion/recording/rgbd_frame.h"
+#include "depth_fusion/frames/rgbd_frame.h"
 #include "openni2/driver/simulated_stream.h"
 
 namespace depth_fusion {

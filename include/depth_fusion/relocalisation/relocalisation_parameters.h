@@ -1,0 +1,18 @@
+// How a lost sensor is found again.
+#pragma once
+
+#include "depth_fusion/common/parameters.h"
+
+namespace depth_fusion {
+
+struct RelocalisationParameters {
+  float keyframe_distance_m = 0.2f;
+  float keyframe_angle_rad = 0.25f;
+  int max_keyframes = 200;
+  int max_candidates = 5;
+  float min_inlier_fraction = 0.5f;
+
+  ParameterTable table();
+};
+
+}  // namespace depth_fusion

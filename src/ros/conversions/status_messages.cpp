@@ -1,0 +1,78 @@
+#include "ros/conversions/status_messages.h"
+
+namespace depth_fusion {
+
+using diagnostic_msgs::DiagnosticStatus;
+namespace {
+
+const char* stateName(uint8_t state) {
+  switch (state) {
+    case TrackerStatus::TRACKING:
+      return "tracking";
+    case TrackerStatus::DEGENERATE:
+      return "degenerate";
+    case TrackerStatus::PAUSED:
+      return "paused";
+    default:
+      return "lost";
+  }
+}
+
+}  // namespace
+
+TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingResult& result) {
+  TrackerStatus status;
+  status.header = header;
+  status.state = static_cast<uint8_t>(result.status);
+  status.reason = result.reason;
+  status.inliers = result.inliers;
+  status.inlier_fraction = result.inlier_fraction;
+  status.rmse_m = result.rmse_m;
+  status.smallest_eigenvalue = result.smallest_eigenvalue;
+  status.latency_s = (ros::Time::now() - header.stamp).toSec();
+  return status;
+}
+
+void setUsage(MapStatus& status, const BlockSparseMap::Usage& usage) {
+  status.blocks = usage.blocks;
+  status.blocks_free = usage.capacity - usage.blocks;
+  status.bytes = usage.bytes;
+  status.pool_bytes = usage.pool_bytes;
+}
+
+void diagnose(const TrackerStatus& tracker, const std::string& problem, const std::string& advice,
+              diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (!problem.empty()) {
+    status.summary(DiagnosticStatus::WARN, problem);
+  } else if (tracker.state == TrackerStatus::LOST && !tracker.reason.empty()) {
+    status.summary(DiagnosticStatus::ERROR, "lost: " + tracker.reason + advice);
+  } else if (!tracker.reason.empty()) {
+    status.summary(DiagnosticStatus::WARN, tracker.reason);
+  }
+  status.add("state", tracker.frames.received == 0 ? "no frame yet" : stateName(tracker.state));
+  status.add("inliers", tracker.inliers);
+  status.add("rmse_m", tracker.rmse_m);
+  status.add("keyframes", tracker.keyframes);
+}
+
+void diagnose(const MapStatus& map, const std::string& problem,
+              diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const double used = static_cast<double>(map.blocks) / std::max<double>(1.0, map.blocks + map.blocks_free);
+  if (!problem.empty()) {
+    status.summary(DiagnosticStatus::WARN, problem);
+  } else if (map.blocks_left_out > 0) {
+    status.summary(DiagnosticStatus::ERROR, map.reason);
+  } else if (used > 0.9) {
+    status.summary(
+        DiagnosticStatus::WARN,
+        "the pool of voxels is nearly full; raise map/pool_mib or map/voxel_size_m, or reset_volume");
+  } else if (!map.reason.empty()) {
+    status.summary(DiagnosticStatus::WARN, map.reason);
+  }
+  status.add("blocks", map.blocks);
+  status.add("blocks left out", map.blocks_left_out);
+  status.addf("pool used", "%.1f %%", 100.0 * used);
+  status.addf("map MiB", "%.1f", static_cast<double>(map.bytes) / (1 << 20));
+}
+
+}  // namespace depth_fusion

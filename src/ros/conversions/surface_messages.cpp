@@ -1,0 +1,159 @@
+#include "ros/conversions/surface_messages.h"
+
+#include <sensor_msgs/point_cloud2_iterator.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+namespace depth_fusion {
+namespace {
+
+using visualization_msgs::Marker;
+
+// How much light from there a surface gets; softer than Lambert's cosine, so that noise in walls hardly
+// shows.
+float received(const Eigen::Vector3f& light, const Eigen::Vector3f& normal) {
+  const float half_lambert = 0.5f + 0.5f * normal.dot(light);
+  return half_lambert * half_lambert;
+}
+
+// Two lights of different colours, so that surfaces that face different ways look different.
+MeshColor shadeOf(const Eigen::Vector3f& normal) {
+  const Eigen::Vector3f key = Eigen::Vector3f(-0.5f, 0.35f, 0.8f).normalized();
+  const Eigen::Vector3f fill = Eigen::Vector3f(0.6f, -0.8f, -0.1f).normalized();
+  const Eigen::Vector3f color = Eigen::Vector3f(0.10f, 0.11f, 0.14f) +
+                                received(key, normal) * Eigen::Vector3f(0.82f, 0.78f, 0.70f) +
+                                received(fill, normal) * Eigen::Vector3f(0.16f, 0.26f, 0.42f);
+  MeshColor rgb;
+  for (int channel = 0; channel < 3; ++channel)
+    rgb[channel] = static_cast<uint8_t>(std::lround(255.0f * std::min(1.0f, color[channel])));
+  return rgb;
+}
+
+MeshColor colorOf(const TriangleMesh& mesh, size_t vertex) {
+  return mesh.colors.empty() ? shadeOf(mesh.vertices[vertex].normal_W) : mesh.colors[vertex];
+}
+
+// The stamp of zero means to rviz: wherever the frame is now.
+Marker makeMarker(const std::string& frame_id, const std::string& marker_namespace, int id, int action) {
+  Marker marker;
+  marker.header.frame_id = frame_id;
+  marker.ns = marker_namespace;
+  marker.id = id;
+  marker.action = action;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  marker.color.r = marker.color.g = marker.color.b = marker.color.a = 1.0f;
+  return marker;
+}
+
+geometry_msgs::Point pointOf(const Eigen::Vector3f& p) {
+  geometry_msgs::Point point;
+  point.x = p.x();
+  point.y = p.y();
+  point.z = p.z();
+  return point;
+}
+
+std_msgs::ColorRGBA colorMessage(const MeshColor& color) {
+  std_msgs::ColorRGBA message;
+  message.r = color[0] / 255.0f;
+  message.g = color[1] / 255.0f;
+  message.b = color[2] / 255.0f;
+  message.a = 1.0f;
+  return message;
+}
+
+}  // namespace
+
+Marker makeSurfaceMarker(const std::string& frame_id, int id, const TriangleMesh& mesh) {
+  Marker marker = makeMarker(frame_id, kSurfaceMarkers, id, Marker::ADD);
+  marker.type = Marker::TRIANGLE_LIST;
+  marker.points.reserve(3 * mesh.triangles.size());
+  marker.colors.reserve(3 * mesh.triangles.size());
+  std::vector<std_msgs::ColorRGBA> colors;
+  colors.reserve(mesh.vertices.size());
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) colors.push_back(colorMessage(colorOf(mesh, i)));
+  for (const MeshTriangle& triangle : mesh.triangles) {
+    for (const uint32_t vertex : triangle) {
+      marker.points.push_back(pointOf(mesh.vertices[vertex].position_W));
+      marker.colors.push_back(colors[vertex]);
+    }
+  }
+  return marker;
+}
+
+Marker makeDeletion(const std::string& frame_id, int id) {
+  return makeMarker(frame_id, kSurfaceMarkers, id, Marker::DELETE);
+}
+
+Marker makeDeletionOfAll(const std::string& frame_id) {
+  return makeMarker(frame_id, kSurfaceMarkers, 0, Marker::DELETEALL);
+}
+
+Marker makeBlockMarker(const std::string& frame_id, const BlockSparseMap& map) {
+  Marker marker = makeMarker(frame_id, kBlockMarkers, 0, Marker::ADD);
+  marker.type = Marker::CUBE_LIST;
+  const float edge_m = map.parameters().voxel_size_m * static_cast<float>(map.parameters().block_size);
+  // A voxel samples its lowest corner, so a block's surface lies in its cube.
+  for (const BlockSparseMap::Block& block : map.blocks())
+    marker.points.push_back(pointOf(edge_m * (block.index.cast<float>() + Eigen::Vector3f::Constant(0.5f))));
+  marker.scale.x = marker.scale.y = marker.scale.z = 0.9 * edge_m;
+  marker.color.r = 0.25f;
+  marker.color.g = 0.65f;
+  marker.color.b = 1.0f;
+  marker.color.a = 0.25f;
+  if (marker.points.empty()) marker.action = Marker::DELETE;
+  return marker;
+}
+
+TriangleMesh thinned(const TriangleMesh& mesh, float spacing_m) {
+  TriangleMesh kept;
+  std::unordered_set<uint64_t> taken;
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (spacing_m > 0.0f) {
+      uint64_t cube = 0;
+      for (const float coordinate_m : mesh.vertices[i].position_W)
+        cube = cube << 21 | (static_cast<uint64_t>(std::floor(coordinate_m / spacing_m)) & 0x1fffff);
+      if (!taken.insert(cube).second) continue;
+    }
+    kept.vertices.push_back(mesh.vertices[i]);
+    if (!mesh.colors.empty()) kept.colors.push_back(mesh.colors[i]);
+  }
+  return kept;
+}
+
+sensor_msgs::PointCloud2 makePointCloud(const std_msgs::Header& header,
+                                        const std::vector<const TriangleMesh*>& meshes) {
+  using sensor_msgs::PointField;
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header = header;
+  cloud.is_dense = true;
+  sensor_msgs::PointCloud2Modifier modifier(cloud);
+  modifier.setPointCloud2Fields(7, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
+                                PointField::FLOAT32, "normal_x", 1, PointField::FLOAT32, "normal_y", 1,
+                                PointField::FLOAT32, "normal_z", 1, PointField::FLOAT32, "rgb", 1,
+                                PointField::FLOAT32);
+  size_t points = 0;
+  for (const TriangleMesh* mesh : meshes) points += mesh->vertices.size();
+  modifier.resize(points);
+  if (points == 0) return cloud;
+  sensor_msgs::PointCloud2Iterator<float> out(cloud, "x");
+  sensor_msgs::PointCloud2Iterator<uint8_t> rgb(cloud, "rgb");
+  for (const TriangleMesh* mesh : meshes) {
+    for (size_t i = 0; i < mesh->vertices.size(); ++i, ++out, ++rgb) {
+      std::copy_n(mesh->vertices[i].position_W.data(), 3, &out[0]);
+      std::copy_n(mesh->vertices[i].normal_W.data(), 3, &out[3]);
+      const auto& [red, green, blue] = colorOf(*mesh, i);
+      rgb[0] = blue;
+      rgb[1] = green;
+      rgb[2] = red;
+      rgb[3] = 0;
+    }
+  }
+  return cloud;
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,82 @@
+// A frame on its way from nodelet to nodelet.
+#pragma once
+
+#include <ros/time.h>
+#include <sensor_msgs/Image.h>
+
+#include <cmath>
+#include <memory>
+
+#include "depth_fusion/icp_tracking/icp_tracker.h"
+#include "depth_fusion/texture_odometry/texture_odometry.h"
+#include "ros/in_process/process_message.h"
+
+namespace depth_fusion {
+
+struct SharedMap;
+
+// A depth image with the colour that belongs to it.
+struct SensorFrame {
+  std_msgs::Header header;  // the depth image's
+  RgbdFrame rgbd;           // its pixels may lie in the messages below
+  sensor_msgs::ImageConstPtr depth_message, color_message;
+  ros::WallTime received = ros::WallTime::now();
+  uint32_t clock_jumps = 0;  // backwards, before this frame
+};
+using SensorFramePtr = std::shared_ptr<const SensorFrame>;
+
+// Topic texture_odometry/frame.
+struct TexturedFrame {
+  SensorFramePtr sensor;
+  TextureOdometryResult motion;  // since the textured frame before
+  FrameFeatures features;
+  std::shared_ptr<const TextureOdometryParameters> parameters;  // of the two; null without texture odometry
+};
+using TexturedFramePtr = std::shared_ptr<const TexturedFrame>;
+using TexturedFrameMessage = ProcessMessage<TexturedFrame>;
+
+// Topic icp_tracking/frame.
+struct TrackedFrame {
+  SensorFramePtr sensor;
+  std::shared_ptr<const DepthFrame> depth;  // preprocessed; null if lost
+  TrackingResult tracking;
+  uint32_t map_generation = 0;  // of the map that it was tracked against; 0: of none
+  bool begins_map = false;      // the clock jumped back: the map is to begin anew with this frame
+};
+using TrackedFramePtr = std::shared_ptr<const TrackedFrame>;
+using TrackedFrameMessage = ProcessMessage<TrackedFrame>;
+
+// When the map was emptied by a call.
+struct MapReset {
+  ros::WallTime called;
+  ros::Time stamp;
+
+  // A frame counts as from before if it was received by then; for a short time after, while images from
+  // before may still be on their way, also if its stamp, of the same clock, says so.
+  bool isAfter(const SensorFrame& frame) const {
+    constexpr double kOnTheirWay_s = 1.0, kSameClock_s = 10.0;
+    if (frame.received < called) return true;
+    const double later_s = (frame.header.stamp - stamp).toSec();
+    return (frame.received - called).toSec() < kOnTheirWay_s && later_s <= 0.0 && later_s > -kSameClock_s;
+  }
+};
+
+enum class MapMode : uint8_t { kMapping, kLocalisation, kPaused };
+
+// Topic tsdf_fusion/model_view: the answer to each tracked frame, with its stamp, and news of a reset or of
+// another mode.
+struct MapView {
+  std::shared_ptr<const ModelView>
+      view;                     // of the last accepted frame; null if there is nothing to be seen yet
+  bool accepted = false;        // the frame is in the map, or may be predicted from for another reason
+  std::string reason;           // why not
+  uint32_t map_generation = 0;  // another one after every reset
+  MapMode mode = MapMode::kMapping;
+  MapReset reset;  // the last one
+  std::weak_ptr<SharedMap> map;
+};
+// The reason of frames that were taken before the map was emptied.
+constexpr char kBeforeReset[] = "from before a reset";
+using MapViewMessage = ProcessMessage<MapView>;
+
+}  // namespace depth_fusion

@@ -1,0 +1,76 @@
+#include "ros/in_process/fusion_link.h"
+
+#include <utility>
+
+namespace depth_fusion {
+namespace {
+
+constexpr size_t kMaxViews = 8;
+constexpr auto kPeriod = std::chrono::milliseconds(200);
+constexpr auto kPatience = std::chrono::seconds(60);  // kernels may have to be built first
+
+}  // namespace
+
+void FusionLink::receive(const MapViewMessage::ConstPtr& view) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    views_.push_back(view);
+    if (views_.size() > kMaxViews)
+      views_.pop_front();  // nobody sends frames, and fusion has them from elsewhere
+  }
+  changed_.notify_all();
+}
+
+void FusionLink::stop() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::vector<FusionNews> FusionLink::await() {
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  std::vector<FusionNews> news;
+  std::unique_lock<std::mutex> lock(mutex_);
+  do {
+    for (; !views_.empty(); views_.pop_front()) {
+      if (const std::optional<FusionNews> one = newsOf(*views_.front())) news.push_back(*one);
+    }
+    if (!sent_ || !connected()) break;
+    changed_.wait_for(lock, kPeriod, [this] { return stopping_ || !views_.empty(); });
+  } while (!stopping_ && std::chrono::steady_clock::now() < give_up);
+  if (sent_ && !stopping_) news.push_back({FusionNews::kRejected, nullptr, nullptr});
+  sent_.reset();
+  return news;
+}
+
+std::optional<FusionNews> FusionLink::newsOf(const MapViewMessage& message) {
+  const MapView& view = *message.payload;
+  const bool answers = sent_ && message.header.stamp == sent_->frame->sensor->header.stamp;
+  const bool accepted = answers && view.accepted;
+  mode_ = view.mode;
+  reset_ = view.reset;
+  const bool other_map = view.map_generation != std::exchange(map_generation_, view.map_generation);
+  FusionNews news{FusionNews::kRejected, message.payload, nullptr};
+  if (accepted) {
+    news = {FusionNews::kAccepted, message.payload, sent_->frame, sent_->T_W_D};
+  } else if (other_map || (answers && sent_->begins_map)) {
+    news.kind = FusionNews::kOtherMap;
+  } else if (!answers) {
+    return std::nullopt;
+  }
+  sent_.reset();
+  return news;
+}
+
+void FusionLink::send(const TexturedFramePtr& frame, std::shared_ptr<const DepthFrame> depth,
+                      const TrackingResult& tracking) {
+  sent_ = Sent{frame, tracking.T_W_D, std::exchange(begins_map_, false)};
+  frames_.publish(makeMessage<TrackedFrame>(
+      frame->sensor->header,
+      std::make_shared<TrackedFrame>(
+          TrackedFrame{frame->sensor, std::move(depth), tracking, map_generation_, sent_->begins_map})));
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,70 @@
+// The tracker's line to tsdf_fusion: a tracked frame goes there, and its answer is awaited before the next
+// one.
+#pragma once
+
+#include <ros/publisher.h>
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "ros/in_process/frames.h"
+
+namespace depth_fusion {
+
+// What fusion said of the frame sent last, or of the map.
+struct FusionNews {
+  enum Kind { kAccepted, kRejected, kOtherMap };
+  Kind kind;
+  std::shared_ptr<const MapView> view;  // null if there was no answer
+  TexturedFramePtr frame;               // the one accepted,
+  Pose T_W_D = Pose::Identity();        // and its pose
+};
+
+class FusionLink {
+ public:
+  // `frames` is the topic icp_tracking/frame.
+  explicit FusionLink(ros::Publisher frames) : frames_(std::move(frames)) {}
+
+  // From any thread:
+  void receive(const MapViewMessage::ConstPtr& view);
+  // await() returns at once from now on.
+  void stop();
+  bool connected() const { return frames_.getNumSubscribers() > 0; }
+
+  // From the tracker's thread:
+  // Waits for the answer to the frame sent last, and returns all that fusion said since the last call, oldest
+  // first. No answer for a minute, or nobody there to answer, counts as a rejection.
+  std::vector<FusionNews> await();
+  void send(const TexturedFramePtr& frame, std::shared_ptr<const DepthFrame> depth,
+            const TrackingResult& tracking);
+  // The next frame that is sent begins the map anew.
+  void beginMap() { begins_map_ = true; }
+  MapMode mode() const { return mode_; }
+  bool isBeforeReset(const SensorFrame& frame) const { return reset_.isAfter(frame); }
+
+ private:
+  struct Sent {
+    TexturedFramePtr frame;
+    Pose T_W_D;
+    bool begins_map;
+  };
+
+  std::optional<FusionNews> newsOf(const MapViewMessage& message);
+
+  ros::Publisher frames_;
+  std::optional<Sent> sent_;     // and not answered yet
+  uint32_t map_generation_ = 0;  // 0: of no map yet
+  bool begins_map_ = false;
+  MapMode mode_ = MapMode::kMapping;
+  MapReset reset_;
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  std::deque<MapViewMessage::ConstPtr> views_;
+  bool stopping_ = false;
+};
+
+}  // namespace depth_fusion

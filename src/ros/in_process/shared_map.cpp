@@ -1,0 +1,83 @@
+#include "ros/in_process/shared_map.h"
+
+#include <algorithm>
+#include <map>
+
+namespace depth_fusion {
+namespace {
+
+// What others hold, by name.
+template <class Value>
+struct Registry {
+  std::mutex mutex;
+  std::map<std::string, std::weak_ptr<Value>> values;
+};
+
+template <class Value>
+Registry<Value>& registry() {
+  static Registry<Value> instance;
+  return instance;
+}
+
+}  // namespace
+
+std::shared_ptr<ComputeContext> sharedCompute(const std::string& device) {
+  Registry<ComputeContext>& contexts = registry<ComputeContext>();
+  const std::lock_guard<std::mutex> lock(contexts.mutex);
+  std::weak_ptr<ComputeContext>& known = contexts.values[device];
+  std::shared_ptr<ComputeContext> context = known.lock();
+  if (context == nullptr) known = context = std::make_shared<ComputeContext>(device);
+  return context;
+}
+
+uint32_t newGeneration() {
+  static std::atomic<uint32_t> last{0};
+  return ++last;
+}
+
+void SharedMap::reset() {
+  map.reset(Eigen::Vector3d::Zero());
+  generation = newGeneration();
+  mapper_.reset();
+}
+
+Mapper& SharedMap::mapper(const CameraIntrinsics& camera) {
+  if (mapper_ == nullptr || !sameCamera(camera, camera_)) {
+    mapper_ = std::make_unique<Mapper>(*compute, map, parameters_, camera);
+    camera_ = camera;
+  }
+  return *mapper_;
+}
+
+void SharedMap::setParameters(const PipelineParameters& parameters) {
+  if (mapper_ != nullptr) mapper_->setParameters(parameters);
+  parameters_ = parameters;
+}
+
+bool SharedMap::isFollowed() {
+  followers_.erase(
+      std::remove_if(followers_.begin(), followers_.end(), [](const auto& f) { return f.expired(); }),
+      followers_.end());
+  return !followers_.empty();
+}
+
+void SharedMap::noteUpdated(const std::vector<int>& slots) {
+  for (const auto& follower : followers_) {
+    if (const std::shared_ptr<MeshChunks> chunks = follower.lock()) chunks->noteUpdated(slots);
+  }
+}
+
+void offerMap(const std::string& name, const std::shared_ptr<SharedMap>& map) {
+  Registry<SharedMap>& maps = registry<SharedMap>();
+  const std::lock_guard<std::mutex> lock(maps.mutex);
+  maps.values[name] = map;
+}
+
+std::shared_ptr<SharedMap> findMap(const std::string& name) {
+  Registry<SharedMap>& maps = registry<SharedMap>();
+  const std::lock_guard<std::mutex> lock(maps.mutex);
+  const auto found = maps.values.find(name);
+  return found == maps.values.end() ? nullptr : found->second.lock();
+}
+
+}  // namespace depth_fusion

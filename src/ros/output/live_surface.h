@@ -1,0 +1,55 @@
+// What viewers are shown of a map's surface while it grows.
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <map>
+#include <memory>
+
+#include "ros/in_process/shared_map.h"
+
+namespace depth_fusion {
+
+struct LiveSurfaceParameters {
+  int chunk_blocks = 16;
+  int chunks_per_update = 8;
+  int refresh_chunks = 2;
+  float triangle_share = 1.0f;
+  float point_spacing_m = 0.02f;
+
+  ParameterTable table();
+};
+
+// Follows one map, chunk by chunk. For one thread; the map may change meanwhile.
+class LiveSurface {
+ public:
+  LiveSurface(const std::shared_ptr<SharedMap>& map, const LiveSurfaceParameters& live,
+              const SurfaceMeshParameters& mesh);
+
+  bool follows(const std::shared_ptr<SharedMap>& map) const { return map_.lock() == map; }
+  // All chunks count as changed, for viewers that come late.
+  void showAll();
+  // Takes the next chunks that changed. The first time and after a reset the markers begin with a DELETEALL.
+  // Without `with_markers` they are none; without `with_points` points() has none.
+  visualization_msgs::MarkerArrayPtr update(bool with_markers, bool with_points);
+  // Of all the chunks taken so far.
+  sensor_msgs::PointCloud2Ptr points(const std_msgs::Header& header) const;
+
+ private:
+  // Whether the map was reset since the last time.
+  bool beginAnew(SharedMap& map);
+  void refresh(SharedMap& map);
+  std::vector<MeshChunk> takeChunk(SharedMap& map);
+  visualization_msgs::Marker markerOf(const std::string& frame_id, const MeshChunk& chunk);
+  void keepPoints(const MeshChunk& chunk);
+
+  LiveSurfaceParameters parameters_;
+  std::weak_ptr<SharedMap> map_;
+  std::shared_ptr<MeshChunks> chunks_;
+  uint32_t generation_ = 0;  // of the map shown; 0: none yet
+  std::map<MeshChunkIndex, int> marker_ids_;
+  std::map<MeshChunkIndex, TriangleMesh> points_;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,114 @@
+#include "ros/output/mesh_export.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/surface_mesh/mesh_file.h"
+#include "depth_fusion/surface_mesh/simplification.h"
+
+namespace depth_fusion {
+namespace {
+
+namespace fs = std::filesystem;
+
+// On devices that run one kernel at a time, mapping waits for one of a batch at most.
+constexpr int kBatchBlocks = 512;
+
+constexpr const char* kNoSurface = "the map has no surface yet; nothing was written";
+
+// Passes a mesh on and counts it.
+class CountingSink final : public MeshSink {
+ public:
+  explicit CountingSink(MeshSink& sink) : sink_(sink) {}
+
+  void begin(const MeshSize& size) override {
+    check(size.triangles > 0, kNoSurface);
+    size_ = size;
+    sink_.begin(size);
+  }
+  void addVertices(const MeshVertex* vertices, const MeshColor* colors, size_t count) override {
+    sink_.addVertices(vertices, colors, count);
+  }
+  void addTriangles(const MeshTriangle* triangles, size_t count) override {
+    sink_.addTriangles(triangles, count);
+  }
+  void finish() override { sink_.finish(); }
+
+  const MeshSize& size() const { return size_; }
+
+ private:
+  MeshSink& sink_;
+  MeshSize size_;
+};
+
+fs::path rosHome() {
+  if (const char* ros_home = std::getenv("ROS_HOME")) return ros_home;
+  const char* home = std::getenv("HOME");
+  return fs::path(home == nullptr ? "/" : home) / ".ros";
+}
+
+// 1 if all triangles are to be kept.
+double checkedShare(double simplification) {
+  check(simplification >= 0.0 && simplification <= 1.0,
+        "simplification is the share of the triangles to keep, from 0 to 1 (0 or 1: all); it is " +
+            std::to_string(simplification));
+  return simplification == 0.0 ? 1.0 : simplification;
+}
+
+void checkFolder(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  check(fs::is_directory(folder),
+        "the folder " + folder.string() + " does not exist; make it, or choose another path");
+  check(!fs::is_directory(path), path + " is a folder; give the name of a file");
+}
+
+std::unique_ptr<BlockSparseMap> snapshotOf(SharedMap& map, bool with_color) {
+  std::unique_ptr<BlockSparseMap> snapshot;
+  {
+    const std::lock_guard<std::mutex> lock(map.mutex);
+    check(map.map.usage().blocks > 0, kNoSurface);
+    snapshot = map.map.snapshot(with_color);
+  }
+  snapshot->offsets().read<int>(1);  // returns when the copy is made
+  return snapshot;
+}
+
+}  // namespace
+
+std::string absolutePath(const std::string& path) {
+  return fs::absolute(rosHome() / fs::path(path)).lexically_normal().string();
+}
+
+ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,
+                                const SurfaceMeshParameters& parameters) {
+  check(!request.path.empty(), "path is empty; give the mesh file's name, mesh.ply for instance");
+  const double share = checkedShare(request.simplification);
+  const std::string path = absolutePath(request.path);
+  checkFolder(path);
+  const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format);
+  CountingSink sink(*file);
+
+  const std::unique_ptr<BlockSparseMap> snapshot = snapshotOf(map, request.color);
+  const std::unique_ptr<ComputeContext> queue = map.compute->anotherQueue();
+  SurfaceMeshParameters batches = parameters;
+  batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);
+  if (share < 1.0) {
+    TriangleMesh mesh;
+    exportSurfaceMesh(*queue, *snapshot, mesh, batches);
+    sendMesh(simplified(mesh, share), sink);
+  } else {
+    exportSurfaceMesh(*queue, *snapshot, sink, batches);
+  }
+
+  ExportMesh::Response response;
+  response.success = true;
+  response.message = path;
+  response.vertices = sink.size().vertices;
+  response.triangles = sink.size().triangles;
+  response.bytes = fs::file_size(path);
+  return response;
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,18 @@
+// The service export_mesh: the map's surface to a file, beside mapping.
+#pragma once
+
+#include <depth_fusion/ExportMesh.h>
+
+#include "ros/in_process/shared_map.h"
+
+namespace depth_fusion {
+
+// The path itself if it is absolute, else below ROS_HOME (~/.ros without that variable).
+std::string absolutePath(const std::string& path);
+
+// Writes the surface of the map as it is now. The map's mutex is held for a snapshot only. Throws Error for a
+// request that cannot be met, and if the file cannot be written; then no file is left.
+ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,
+                                const SurfaceMeshParameters& parameters);
+
+}  // namespace depth_fusion

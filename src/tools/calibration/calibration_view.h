@@ -1,0 +1,42 @@
+// What a frame's depth looks like under the correction so far, on the host.
+#pragma once
+
+#include "depth_fusion/preprocessing/depth_preprocessor.h"
+#include "tools/calibration/calibration_system.h"
+#include "tools/calibration/depth_calibration.h"
+
+namespace depth_fusion {
+
+struct ViewPoint {
+  cv::Point pixel;
+  Eigen::Vector3d p_D, normal_D;
+  double sigma_m;  // of the depth
+};
+
+// The depth, halved, of a frame.
+class CalibrationView {
+ public:
+  // Preprocesses the frame as tracking and fusion do.
+  CalibrationView(DepthPreprocessor& preprocessor, const CalibrationFrame& frame);
+
+  // Nothing without depth and normal there, or outside of the image.
+  std::optional<ViewPoint> at(int x, int y) const;
+  // What the camera sees where the point falls.
+  std::optional<ViewPoint> under(const Eigen::Vector3d& p_D) const;
+  // Points spread over the image, `columns` of them across its width.
+  std::vector<ViewPoint> sample(int columns) const;
+  const CameraIntrinsics& camera() const { return camera_; }
+  const DepthSensorParameters& sensor() const { return sensor_; }
+
+  // Adds how covector . p_D changes with the calibration's parameters.
+  void addDerivatives(const ViewPoint& point, const Eigen::Vector3d& covector, SparseRow& row) const;
+
+ private:
+  CameraIntrinsics camera_;
+  DepthSensorParameters sensor_;
+  Vector6d velocity_;
+  cv::Mat depth_m_;  // CV_32FC1
+  cv::Mat normals_;  // CV_32FC3
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,50 @@
+// The systematic errors of a depth sensor from a recording of an ordinary scene, without a target and without
+// known poses: planes must be flat, and what two frames see must coincide. docs/calibration.md says what can
+// be known from that.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "depth_fusion/compute/compute_context.h"
+#include "depth_fusion/pipeline/pipeline_parameters.h"
+#include "depth_fusion/frames/rgbd_frame.h"
+
+namespace depth_fusion {
+
+struct Estimate {
+  double value = 0.0;
+  double sigma = 0.0;  // standard deviation
+};
+
+struct CalibrationFrame {
+  RgbdFrame frame;                       // its colour is not used
+  Pose T_W_D = Pose::Identity();         // as tracked, good to a few centimetres
+  Vector6d velocity = Vector6d::Zero();  // of D in D, per second
+};
+
+// How far planes are from flat, before or after the correction, apart from noise.
+struct DepthResiduals {
+  cv::Mat
+      map_per_m;  // CV_32FC1: what their inverse depth lacks, by part of the image; NaN where there are none
+  double rms_per_m = 0.0;
+};
+
+struct DepthCalibration {
+  cv::Mat offsets_per_m;     // of the inverse depth (depth_correction.h); near 0 where nothing tells
+  cv::Mat sigmas_per_m;      // their standard deviations, for each offset
+  int observed_offsets = 0;  // those that the recording, and not the prior alone, determines
+  Estimate readout_s;
+  bool readout_observed = false;
+  int pairs = 0;   // of frames that see the same surface
+  int planes = 0;  // in all frames
+  DepthResiduals before, after;
+};
+
+// The depth offsets and the readout that make the frames fit best. The frames' order is that of time.
+// Parameters say the sensor's noise, range, stamp delay and a first readout. Throws Error if the frames
+// determine no offset, and says why.
+DepthCalibration calibrateDepth(ComputeContext& compute, const PipelineParameters& parameters,
+                                const std::vector<CalibrationFrame>& frames);
+
+}  // namespace depth_fusion

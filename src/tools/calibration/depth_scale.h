@@ -1,0 +1,16 @@
+// The factor on the depth, which no depth sensor can know without a length from outside.
+#pragma once
+
+#include "tools/calibration/depth_calibration.h"
+#include "depth_fusion/geometry/pose.h"
+
+namespace depth_fusion {
+
+// Times it, the tracked trajectory has the size of the true one. Throws Error if the true one covers too
+// little of it.
+Estimate scaleAgainst(const Trajectory& tracked, const Trajectory& truth);
+
+// The same from the straight distance between the first and the last pose, measured to +-sigma.
+Estimate scaleAgainst(const Trajectory& tracked, const Estimate& distance_m);
+
+}  // namespace depth_fusion

@@ -1,0 +1,24 @@
+// A union of solids: what simulated recordings show, and the exact surface that meshes are measured against.
+#pragma once
+
+#include <vector>
+
+#include "tools/simulation/primitive.h"
+
+namespace depth_fusion {
+
+class Scene {
+ public:
+  explicit Scene(std::vector<Primitive> primitives) : primitives_(std::move(primitives)) {}
+
+  // Signed distance to the surface in metres, positive in free space. Exact there; inside, exact wherever
+  // solids do not overlap and never too large in magnitude.
+  double distance(const Eigen::Vector3d& p_W) const;
+
+  const std::vector<Primitive>& primitives() const { return primitives_; }
+
+ private:
+  std::vector<Primitive> primitives_;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,43 @@
+// A built-in scene seen by a simulated hand-held sensor, as a recording with exact poses.
+#pragma once
+
+#include "depth_fusion/recording/recording.h"
+#include "tools/simulation/scene_library.h"
+
+namespace depth_fusion {
+
+struct SimulationOptions {
+  std::string scene = "room";
+  int frames = 300;
+  bool noise = true;
+  unsigned seed = 1;
+  double fps = 30.0;
+  double speed = 1.0;  // times the scene's own
+  // Of the recording's fastest moment, tremor aside, in place of speed; 0: as speed says.
+  double linear_speed_m_s = 0.0;
+  double turn_rate_deg_s = 0.0;
+  CameraIntrinsics intrinsics;  // width 0: those of the scene's sensor
+};
+
+class SimulatedRecording : public Recording {
+ public:
+  // Throws Error for an unknown scene or a value that makes no sense.
+  explicit SimulatedRecording(const SimulationOptions& options);
+
+  // Depth as CV_32FC1 in metres, colour as BGR, the exact pose. The same options give the same bits.
+  std::optional<RgbdFrame> next() override;
+  size_t frameCount() const override { return static_cast<size_t>(options_.frames); }
+  std::string description() const override;
+
+  const SimulatedScene& scene() const { return scene_; }
+  StampedPose poseOf(int frame) const;
+  const CameraIntrinsics& intrinsics() const { return options_.intrinsics; }
+
+ private:
+  SimulationOptions options_;
+  SimulatedScene scene_;
+  HandSpeed hand_speed_;
+  int next_frame_ = 0;
+};
+
+}  // namespace depth_fusion

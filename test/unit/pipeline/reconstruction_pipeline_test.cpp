@@ -1,0 +1,245 @@
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "depth_fusion/pipeline/warm_up.h"
+#include "depth_fusion/surface_mesh/surface_mesh.h"
+#include "depth_fusion/surface_mesh/triangle_mesh.h"
+#include "tools/simulation/simulated_recording.h"
+#include "support/map_contents.h"
+#include "support/test_compute.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr CameraIntrinsics kCamera{160, 120, 131.25, 131.25, 79.5, 59.5};
+constexpr int kFrames = 12;
+
+PipelineParameters pipelineParameters() {
+  PipelineParameters parameters;
+  parameters.map.voxel_size_m = 0.02f;
+  parameters.map.truncation_m = 0.08f;
+  parameters.map.blocks_per_axis = 64;
+  parameters.map.pool_mib = 32;
+  return parameters;
+}
+
+// The room seen by a slowly moving camera.
+const std::vector<RgbdFrame>& roomFrames() {
+  static const std::vector<RgbdFrame> frames = [] {
+    SimulationOptions options;
+    options.frames = kFrames;
+    options.intrinsics = kCamera;
+    SimulatedRecording recording(options);
+    std::vector<RgbdFrame> all;
+    while (std::optional<RgbdFrame> frame = recording.next()) all.push_back(std::move(*frame));
+    return all;
+  }();
+  return frames;
+}
+
+RgbdFrame frameWithoutDepth() {
+  RgbdFrame frame = roomFrames()[0];
+  frame.depth = frame.depth.clone();
+  frame.depth.setTo(0.0);
+  return frame;
+}
+
+// The pose of frame i in the camera frame of the first one.
+Pose motionTo(int i) { return roomFrames()[0].T_W_D->inverse() * *roomFrames()[i].T_W_D; }
+
+bool isTracking(const FrameResult& result) { return result.tracking.status == TrackingStatus::kTracking; }
+
+void expectLost(const FrameResult& result, const std::string& reason) {
+  EXPECT_EQ(result.tracking.status, TrackingStatus::kLost);
+  EXPECT_NE(result.tracking.reason.find(reason), std::string::npos) << result.tracking.reason;
+  EXPECT_EQ(result.fusion.blocks_updated, 0u);
+}
+
+TriangleMesh meshOf(ReconstructionPipeline& pipeline) {
+  TriangleMesh mesh;
+  exportSurfaceMesh(compute(), pipeline.map(), mesh);
+  return mesh;
+}
+
+bool sameBytes(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.triangles == b.triangles && a.vertices.size() == b.vertices.size() &&
+         std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(MeshVertex)) == 0;
+}
+
+void expectRoomTracked(const PipelineParameters& parameters) {
+  ReconstructionPipeline pipeline(compute(), parameters, kCamera);
+  for (int i = 0; i < kFrames; ++i) {
+    const FrameResult result = pipeline.processFrame(roomFrames()[i]);
+    ASSERT_TRUE(isTracking(result)) << i << " " << result.tracking.reason;
+    EXPECT_GT(result.fusion.blocks_updated, 0u);
+    const Pose error = motionTo(i).inverse() * result.tracking.T_W_D;
+    EXPECT_LT(error.translation().norm(), 0.015) << i;
+    EXPECT_LT(rotationAngle(error), 0.01) << i;
+  }
+  EXPECT_GT(meshOf(pipeline).triangles.size(), 5000u);
+}
+
+TEST(ReconstructionPipeline, TracksAndFusesTheRoom) { expectRoomTracked(pipelineParameters()); }
+
+TEST(ReconstructionPipeline, TracksAgainstViewsOfHalfTheSize) {
+  PipelineParameters parameters = pipelineParameters();
+  parameters.model_view.half_size = true;
+  expectRoomTracked(parameters);
+}
+
+TEST(ReconstructionPipeline, StartsWithTheFirstFrameThatHasDepth) {
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  for (int i = 0; i < 3; ++i)
+    expectLost(pipeline.processFrame(frameWithoutDepth()), "only 0 points with depth in range");
+  EXPECT_EQ(pipeline.map().usage().blocks, 0u);
+  const FrameResult first = pipeline.processFrame(roomFrames()[0]);
+  ASSERT_TRUE(isTracking(first));
+  EXPECT_TRUE(first.tracking.T_W_D.isApprox(Pose::Identity()));
+  const FrameResult second = pipeline.processFrame(roomFrames()[1]);
+  EXPECT_TRUE(isTracking(second)) << second.tracking.reason;
+}
+
+TEST(ReconstructionPipeline, LostFrameChangesNothingAndTheNextIsTracked) {
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[i])));
+  const MapContent before = readMap(pipeline.map());
+  ASSERT_GT(before.size(), 100u);
+
+  expectLost(pipeline.processFrame(frameWithoutDepth()), "no points with depth");
+  EXPECT_TRUE(readMap(pipeline.map()) == before);
+  RgbdFrame turned = roomFrames()[3];
+  turned.depth = turned.depth.clone();
+  cv::flip(roomFrames()[3].depth, turned.depth, -1);
+  expectLost(pipeline.processFrame(turned), "");
+  EXPECT_TRUE(readMap(pipeline.map()) == before);
+
+  EXPECT_TRUE(isTracking(pipeline.processFrame(roomFrames()[3])));
+  EXPECT_FALSE(readMap(pipeline.map()) == before);
+}
+
+TEST(ReconstructionPipeline, TracksOnFromAPoseThatWasGiven) {
+  PipelineParameters parameters = pipelineParameters();
+  parameters.map.blocks_per_axis = 256;
+  ReconstructionPipeline pipeline(compute(), parameters, kCamera);
+  ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[0])));
+  Pose T_W_D = Pose::Identity();
+  T_W_D.translation().x() = 7.0;
+  ASSERT_GT(pipeline.processFrame(roomFrames()[0], T_W_D).fusion.blocks_updated, 0u);
+  // Against the view from before it is lost; then it is looked for where the pose was given.
+  FrameResult result;
+  for (int i = 0; i < 2; ++i) result = pipeline.processFrame(roomFrames()[0]);
+  ASSERT_TRUE(isTracking(result)) << result.tracking.reason;
+  EXPECT_LT((result.tracking.T_W_D.translation() - T_W_D.translation()).norm(), 0.015);
+}
+
+// Covered for a second, then back where it was a while before: keyframes say where that is.
+TEST(ReconstructionPipeline, ComesBackAfterABlackoutAndAJump) {
+  SimulationOptions options;
+  options.frames = 60;
+  options.speed = 2.0;
+  options.intrinsics = {320, 240, 262.5, 262.5, 159.5, 119.5};
+  std::vector<RgbdFrame> frames;
+  SimulatedRecording recording(options);
+  while (std::optional<RgbdFrame> frame = recording.next()) frames.push_back(std::move(*frame));
+  RgbdFrame black = frames.back();
+  for (cv::Mat* image : {&black.depth, &black.color})
+    *image = cv::Mat(image->size(), image->type(), cv::Scalar::all(0));
+
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), options.intrinsics);
+  for (const RgbdFrame& frame : frames) {
+    const FrameResult result = pipeline.processFrame(frame);
+    ASSERT_TRUE(isTracking(result)) << frame.stamp_s << " " << result.tracking.reason;
+  }
+  EXPECT_GT(pipeline.keyframeCount(), 2u);
+  const MapContent before = readMap(pipeline.map());
+  for (int i = 0; i < 30; ++i) expectLost(pipeline.processFrame(black), "no points with depth");
+  EXPECT_TRUE(readMap(pipeline.map()) == before);
+
+  const Pose jump = frames.back().T_W_D->inverse() * *frames[2].T_W_D;
+  ASSERT_GT(jump.translation().norm() + rotationAngle(jump), 0.5) << "out of reach of ICP alone";
+  const FrameResult back = pipeline.processFrame(frames[2]);
+  ASSERT_TRUE(isTracking(back)) << back.tracking.reason;
+  const Pose error = (frames[0].T_W_D->inverse() * *frames[2].T_W_D).inverse() * back.tracking.T_W_D;
+  EXPECT_LT(error.translation().norm(), 0.01);
+  EXPECT_LT(rotationAngle(error), 0.01);
+  EXPECT_GT(back.fusion.blocks_updated, 0u);
+}
+
+// Another place looks like none of the keyframes: lost it stays.
+TEST(ReconstructionPipeline, StaysLostInAnotherPlace) {
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[i])));
+  const MapContent before = readMap(pipeline.map());
+  SimulationOptions options;
+  options.scene = "cylinder";
+  options.frames = 12;
+  options.intrinsics = kCamera;
+  SimulatedRecording elsewhere(options);
+  while (const std::optional<RgbdFrame> frame = elsewhere.next())
+    expectLost(pipeline.processFrame(*frame), "");
+  EXPECT_TRUE(readMap(pipeline.map()) == before);
+}
+
+TEST(ReconstructionPipeline, TheSameFramesGiveTheSameBits) {
+  ReconstructionPipeline a(compute(), pipelineParameters(), kCamera);
+  ReconstructionPipeline b(compute(), pipelineParameters(), kCamera);
+  for (const RgbdFrame& frame : roomFrames()) {
+    const FrameResult result_a = a.processFrame(frame);
+    const FrameResult result_b = b.processFrame(frame);
+    ASSERT_TRUE(result_a.tracking.T_W_D.matrix() == result_b.tracking.T_W_D.matrix());
+    ASSERT_EQ(result_a.fusion.blocks_updated, result_b.fusion.blocks_updated);
+  }
+  EXPECT_TRUE(readMap(a.map()) == readMap(b.map()));
+  EXPECT_TRUE(sameBytes(meshOf(a), meshOf(b)));
+}
+
+TEST(ReconstructionPipeline, FusesWithGivenPoses) {
+  const SimulatedScene scene = makeScene("room");
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  expectLost(pipeline.processFrame(frameWithoutDepth(), *roomFrames()[0].T_W_D), "no depth in range");
+  for (const RgbdFrame& frame : roomFrames()) {
+    const FrameResult result = pipeline.processFrame(frame, *frame.T_W_D);
+    ASSERT_TRUE(isTracking(result));
+    EXPECT_TRUE(result.tracking.T_W_D.matrix() == frame.T_W_D->matrix());
+  }
+  const TriangleMesh mesh = meshOf(pipeline);
+  ASSERT_GT(mesh.vertices.size(), 5000u);
+  double sum_m = 0.0;
+  for (const MeshVertex& vertex : mesh.vertices) {
+    sum_m += std::abs(scene.surface.distance(vertex.position_W.cast<double>()));
+  }
+  EXPECT_LT(sum_m / mesh.vertices.size(), 0.006);
+}
+
+TEST(ReconstructionPipeline, TableNamesEveryStagesParameters) {
+  PipelineParameters parameters;
+  const ParameterTable table = parameters.table();
+  setParameter(table, "map/voxel_size_m", "0.0125");
+  setParameter(table, "tsdf_fusion/max_weight", "17");
+  setParameter(table, "icp_tracking/fine_iterations", "3");
+  setParameter(table, "preprocessing/max_range_m", "2.5");
+  setParameter(table, "surface_mesh/min_certainty", "4");
+  EXPECT_EQ(parameters.map.voxel_size_m, 0.0125f);
+  EXPECT_EQ(parameters.tsdf_fusion.max_weight, 17.0f);
+  EXPECT_EQ(parameters.icp_tracking.fine_iterations, 3);
+  EXPECT_EQ(parameters.preprocessing.max_range_m, 2.5f);
+  EXPECT_EQ(parameters.surface_mesh.min_certainty, 4);
+}
+
+TEST(WarmUp, RunsWhateverTheParameters) {
+  PipelineParameters parameters;
+  warmUp(compute(), parameters);
+  parameters.map.color = true;
+  parameters.map.block_size = 16;
+  parameters.model_view.renderer = "marching_cubes";
+  parameters.preprocessing.min_range_m = 0.15f;
+  parameters.preprocessing.max_range_m = 0.25f;
+  parameters.preprocessing.readout_s = 0.03f;
+  warmUp(compute(), parameters);
+}
+
+}  // namespace
+}  // namespace depth_fusion
