@@ -7,7 +7,7 @@ namespace depth_fusion {
 // the clocks differ.
 class DeviceClock {
  public:
-  // The host's time, in seconds, of an image that the device stamped device_s and that has come at host_s.
+  // Gives the host's time, in seconds, of an image that the device stamped device_s and that came at host_s.
   // Where either clock was set anew, it begins anew.
   double toHost(double device_s, double host_s);
 

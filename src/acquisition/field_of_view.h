@@ -1,4 +1,4 @@
-// What a driver says of its lens, as a camera.
+// The camera that a driver's field of view stands for.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace depth_fusion {
 
-// Square pixels and the axis in the middle, as openni2_camera has it; without a focal length where the angle
-// is 0.
+// Assumes square pixels and the axis in the middle, as openni2_camera does. An angle of 0 gives no focal
+// length.
 inline CameraIntrinsics cameraFromFieldOfView(int width, int height, double horizontal_rad) {
   const double focal_px = horizontal_rad > 0.0 ? 0.5 * width / std::tan(0.5 * horizontal_rad) : 0.0;
   return {width, height, focal_px, focal_px, 0.5 * (width - 1), 0.5 * (height - 1)};

@@ -7,7 +7,7 @@
 
 namespace depth_fusion {
 
-// Frames with the lens distortion and the colour camera that the options give. Colour without a camera of its
+// Gives every frame the lens distortion and the colour camera of the options. Colour without a camera of its
 // own is registered to depth, and has been through the same lens.
 std::unique_ptr<Recording> calibrated(std::unique_ptr<Recording> recording, const RecordingOptions& options);
 

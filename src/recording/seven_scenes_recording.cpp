@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <map>
 
+#include "common/io/image_file.h"
+#include "common/io/text_file.h"
 #include "depth_fusion/common/error.h"
 #include "recording/color_or_problem.h"
 #include "recording/folder_recording.h"
-#include "common/io/image_file.h"
 #include "recording/recording_intrinsics.h"
-#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {
@@ -67,7 +67,7 @@ std::vector<double> readMatrix(const std::string& path, size_t size) {
   return *numbers;
 }
 
-// Nothing for a pose that the data set marks as unknown (numbers that are not finite).
+// Gives nothing for a pose that the data set marks as unknown (numbers that are not finite).
 std::optional<Pose> readPose(const std::string& path) {
   constexpr double kRotationTolerance = 1e-2;
   const std::vector<double> numbers = readMatrix(path, 4);

@@ -7,7 +7,7 @@
 
 namespace depth_fusion {
 
-// Without coefficients it shows every ray.
+// A lens without coefficients shows every ray.
 LensArgs lensArgs(const CameraIntrinsics& camera, const LensDistortion& lens, const std::string& name);
 
 class RegistrationKernels {

@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "tools/evaluation/trajectory_error.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/trajectory_file.h"
-#include "tools/simulation/simulated_recording.h"
-#include "recording/altered_recording.h"
 #include "support/real_data.h"
 #include "support/test_compute.h"
+#include "tools/evaluation/trajectory_error.h"
+#include "tools/simulation/altered_recording.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {

@@ -15,7 +15,7 @@ namespace depth_fusion {
 // Thread-safe. Memory is used again only when the driver and the reader have both done with it.
 class FrameBuffers {
  public:
-  // For the driver to write into.
+  // Gives the driver memory to write an image into.
   uint8_t* allocate(size_t size);
   // The driver has done with it.
   void release(const uint8_t* data);

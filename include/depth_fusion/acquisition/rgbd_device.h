@@ -48,24 +48,24 @@ class RgbdDevice {
  public:
   virtual ~RgbdDevice() = default;
 
-  // Until there is an image, of any stream; false after the given time. Throws Error if the device is
-  // unplugged or has fallen silent; it is then of no more use.
+  // Waits until there is an image of any stream; gives up and returns false after the given time. Throws
+  // Error if the device is unplugged or has fallen silent; it is then of no more use.
   virtual bool await(double timeout_s) = 0;
   // The image that await() has found.
   virtual DeviceImage read() = 0;
 
-  // Of the images' pixels: give them back when they have been read.
+  // Where the images' pixels go back to when they have been read.
   virtual std::shared_ptr<FrameBuffers> buffers() const = 0;
 
-  // Driver and place, in one line, for the user.
+  // Names driver and place in one line, for the user.
   virtual std::string name() const = 0;
-  // Of this very device; its URI where it has no serial number.
+  // The device's serial number, or its URI where it has none.
   virtual std::string serial() const = 0;
-  // Depth comes as the colour camera sees it.
+  // True if depth comes as the colour camera sees it.
   virtual bool registersDepth() const = 0;
-  // Horizontal; 0 if the driver does not know.
+  // The horizontal field of view in radians; 0 if the driver does not know it.
   virtual double fieldOfView_rad(ImageStream stream) const = 0;
-  // What was asked for and cannot be had, a line each.
+  // Says what was asked for and cannot be had, a line each.
   virtual std::vector<std::string> shortcomings() const = 0;
 
   // Throws Error naming what the device refuses.
@@ -75,8 +75,9 @@ class RgbdDevice {
 // Throws Error, saying what to install, if this build has no OpenNI2.
 void requireDevices();
 
-// By URI, serial number, "#n" (the n-th, from 1), "bus@n" (the USB address; n = 0: any on the bus) or "" (the
-// first). Throws Error naming the devices that there are, or the modes of the device, if there is none such.
+// Opens the device of that URI, serial number, "#n" (the n-th, from 1), "bus@n" (the USB address; n = 0: any
+// on the bus) or "" (the first). Throws Error naming the devices that there are, or the modes of the device,
+// if there is none such.
 std::unique_ptr<RgbdDevice> openDevice(const DeviceParameters& parameters);
 
 }  // namespace depth_fusion

@@ -36,10 +36,10 @@ struct RecordingOptions {
   std::string color_topic;                           // bags only; empty: found by type and name
 };
 
-// The intrinsics and the distortion of a camera file: this package's camera.yaml, or a calibration as ROS's
-// camera_calibration writes it. Throws Error naming the file and the key that is missing or wrong.
+// Reads the intrinsics and the distortion of a camera file: this package's camera.yaml, or a calibration as
+// ROS's camera_calibration writes it. Throws Error naming the file and the key that is missing or wrong.
 void readCamera(const std::string& path, RecordingOptions& options);
-// The same of the colour camera. The file may say where it is: `depth_to_color`, a 4x4 matrix that takes
+// Reads those of the colour camera. The file may say where it is: `depth_to_color`, a 4x4 matrix that takes
 // points of the depth camera to this one (metres).
 void readColorCamera(const std::string& path, RecordingOptions& options);
 

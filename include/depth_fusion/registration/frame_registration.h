@@ -11,10 +11,10 @@
 
 namespace depth_fusion {
 
-// The frame's images have to be changed.
+// True if the frame's images have to be changed.
 bool needsRegistration(const RgbdFrame& frame, const RegistrationParameters& parameters);
 
-// The depth's units, as the parameters say; nothing else.
+// Sets the depth's units as the parameters say, and changes nothing else.
 RgbdFrame withDepthUnit(const RgbdFrame& frame, const RegistrationParameters& parameters);
 
 // The camera that depth is moved to: the colour camera, halved until a pixel is not much finer than one of
@@ -26,13 +26,13 @@ class FrameRegistration {
   FrameRegistration(ComputeContext& compute, const RegistrationParameters& parameters);
   ~FrameRegistration();
 
-  // For the frames to come.
+  // Counts for the frames to come.
   void setParameters(const RegistrationParameters& parameters);
-  // The frame as pinhole cameras see it. Depth that had to be changed is CV_32FC1 in metres, interpolated
-  // only within a surface; with depth_to_color it is the colour camera's, where near things hide far ones and
-  // what only the colour camera sees has no depth. What is right as it is shares the frame's memory. T_W_D
-  // stays the pose of the depth's camera. Throws Error for a distortion that cannot be undone, for images of
-  // another size than their cameras, and for weights on depth that has to be changed.
+  // Gives the frame as pinhole cameras see it. Depth that had to be changed is CV_32FC1 in metres,
+  // interpolated only within a surface; with depth_to_color it is the colour camera's, where near things hide
+  // far ones and what only the colour camera sees has no depth. What is right as it is shares the frame's
+  // memory. T_W_D stays the pose of the depth's camera. Throws Error for a distortion that cannot be undone,
+  // for images of another size than their cameras, and for weights on depth that has to be changed.
   RgbdFrame process(const RgbdFrame& frame);
 
  private:

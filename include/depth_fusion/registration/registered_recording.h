@@ -9,7 +9,7 @@
 
 namespace depth_fusion {
 
-// The recording with its frames registered.
+// Gives the recording with its frames registered.
 std::unique_ptr<Recording> registered(std::unique_ptr<Recording> recording, ComputeContext& compute,
                                       const RegistrationParameters& parameters);
 

@@ -121,7 +121,7 @@ class OpenNi2Device : public RgbdDevice {
   Clock::time_point last_image_ = Clock::now();
 };
 
-// The same for callers in any thread.
+// A device for callers in any thread.
 class DeviceInOneThread : public RgbdDevice {
  public:
   explicit DeviceInOneThread(const DeviceParameters& parameters)
@@ -130,7 +130,7 @@ class DeviceInOneThread : public RgbdDevice {
     inOpenNi2Thread([this] { device_.reset(); });
   }
 
-  // In slices, for other devices have the same thread.
+  // Waits in slices, for other devices have the same thread.
   bool await(double timeout_s) override {
     for (const auto end = Clock::now() + std::chrono::duration<double>(timeout_s); Clock::now() < end;) {
       if (inOpenNi2Thread([this] { return device_->await(kSlice_s); })) return true;

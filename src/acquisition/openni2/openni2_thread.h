@@ -6,7 +6,7 @@
 
 namespace depth_fusion {
 
-// To be called in the thread after those before; for inOpenNi2Thread().
+// Queues a call for the thread; inOpenNi2Thread() uses it.
 void postToOpenNi2Thread(const std::function<void()>& call);
 
 // Calls the function in the thread; returns what it returns, and throws what it throws. OpenNI2 keeps the ids

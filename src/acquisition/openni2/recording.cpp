@@ -48,7 +48,7 @@ class OneAtATime : public BufferAllocator {
   void close() {
     change([this] { closing_ = true; });
   }
-  // Until OpenNI2 has no frame of the stream any more; not for ever.
+  // Waits until OpenNI2 has no frame of the stream any more, but not for ever.
   void awaitUnused() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait_for(lock, std::chrono::milliseconds(kMaxWait_ms), [this] { return in_use_ == 0; });
@@ -169,7 +169,7 @@ class OniRecording : public Recording {
     std::deque<DeviceImage> images;
   };
 
-  // The same view in another size.
+  // Gives the camera of the same view in another size.
   static CameraIntrinsics scaled(const CameraIntrinsics& camera, cv::Size size) {
     const double factor = static_cast<double>(size.width) / camera.width;
     return {size.width,
@@ -225,7 +225,7 @@ class OniRecording : public Recording {
   bool ended_ = false;
 };
 
-// The same for callers in any thread.
+// An .oni file for callers in any thread.
 class RecordingInOneThread : public Recording {
  public:
   RecordingInOneThread(const std::string& path, const RecordingOptions& options)

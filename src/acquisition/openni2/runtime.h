@@ -7,7 +7,7 @@
 
 namespace depth_fusion {
 
-// Initialised as long as there is such an object.
+// Keeps OpenNI2 initialised as long as there is such an object.
 class OpenNi2Runtime {
  public:
   // Throws Error if no driver can be loaded.
@@ -17,15 +17,16 @@ class OpenNi2Runtime {
   OpenNi2Runtime& operator=(const OpenNi2Runtime&) = delete;
 };
 
-// The runtime's own words on what failed last, in one line.
+// Gives the runtime's own words on what failed last, in one line.
 std::string openNi2Error();
 
 bool isPlugged(const std::string& uri);
 
-// The URI of the device that openDevice()'s `device_id` means. Throws Error naming those that there are.
+// Gives the URI of the device that openDevice()'s `device_id` means. Throws Error naming those that there
+// are.
 std::string findDevice(const std::string& device_id);
 
-// Empty if it has none.
+// Gives the device's serial number, or an empty text if it has none.
 std::string serialOf(openni::Device& device);
 
 }  // namespace depth_fusion

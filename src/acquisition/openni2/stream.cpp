@@ -18,7 +18,7 @@ struct Format {
   double depth_unit_m;
 };
 
-// Of each stream, the best first.
+// The formats that each stream is wanted in, the best first.
 constexpr Format kFormats[] = {
     {ImageStream::kDepth, openni::PIXEL_FORMAT_DEPTH_1_MM, "16UC1", CV_16UC1, 0.001},
     {ImageStream::kDepth, openni::PIXEL_FORMAT_DEPTH_100_UM, "16UC1", CV_16UC1, 0.0001},
@@ -44,7 +44,7 @@ bool fits(const VideoMode& asked, const VideoMode& mode) {
          (asked.fps == 0 || asked.fps == mode.fps);
 }
 
-// Those whose pixels can be read, the best format first.
+// The modes whose pixels can be read, the best format first.
 std::vector<openni::VideoMode> readableModes(const openni::SensorInfo& sensor, ImageStream stream) {
   std::vector<openni::VideoMode> modes;
   for (int i = 0; i < sensor.getSupportedVideoModes().getSize(); ++i) {

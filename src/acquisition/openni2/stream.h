@@ -31,8 +31,8 @@ openni::SensorType sensorOf(ImageStream stream);
 
 class OpenNi2Stream {
  public:
-  // In the mode that it has, unless one is given. `device_name` begins the messages of Errors: of a stream or
-  // a mode that the device lacks, naming those that it has.
+  // Opens the stream in the mode that it has, unless one is given. Throws Error, which begins with
+  // `device_name`, for a stream or a mode that the device lacks, naming those that it has.
   OpenNi2Stream(openni::Device& device, ImageStream stream, const std::optional<VideoMode>& mode,
                 const std::string& device_name, std::unique_ptr<BufferAllocator> allocator);
   ~OpenNi2Stream();

@@ -1,4 +1,4 @@
-// In place of src/acquisition/openni2/ where the library was not found at build.
+// This file stands in for src/acquisition/openni2/ where the library was not found at build.
 #include "depth_fusion/acquisition/oni_recording.h"
 #include "depth_fusion/acquisition/rgbd_device.h"
 #include "depth_fusion/common/error.h"

@@ -4,7 +4,7 @@
 
 #include "apps/benchmark/tracking.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
-#include "recording/altered_recording.h"
+#include "tools/simulation/altered_recording.h"
 
 namespace depth_fusion {
 

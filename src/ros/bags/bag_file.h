@@ -16,7 +16,7 @@ namespace depth_fusion {
 // Throws Error for a file that is missing, no bag, unindexed or truncated.
 std::unique_ptr<rosbag::Bag> openBagFile(const std::string& path);
 
-// Sorted by name.
+// The topics of the bag, sorted by name.
 std::vector<BagTopic> topicsOf(const rosbag::Bag& bag);
 
 // The message at a place of the bag. Throws Error naming bag and topic if it cannot be read as a Message.

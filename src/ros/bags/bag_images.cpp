@@ -6,28 +6,24 @@ BagImage readImage(const rosbag::MessageInstance& place, const rosbag::Bag& bag)
   BagImage image;
   image.name = bag.getFileName() + ": " + place.getTopic();
   image.received_s = place.getTime().toSec();
-  std_msgs::Header header;
   if (place.getDataType() == kCompressedImageType) {
-    image.compressed = readMessage<sensor_msgs::CompressedImage>(place, bag);
-    header = image.compressed->header;
+    image.message.compressed = readMessage<sensor_msgs::CompressedImage>(place, bag);
   } else {
-    image.raw = readMessage<sensor_msgs::Image>(place, bag);
-    header = image.raw->header;
+    image.message.raw = readMessage<sensor_msgs::Image>(place, bag);
   }
-  image.stamp_s = header.stamp.isZero() ? image.received_s : header.stamp.toSec();
-  image.frame_id = header.frame_id;
+  const ros::Time& stamp = image.message.header().stamp;
+  image.stamp_s = stamp.isZero() ? image.received_s : stamp.toSec();
   return image;
 }
 
 DepthImage toDepth(const BagImage& image) {
-  if (!image.raw) return depthFromCompressed(*image.compressed, image.name);
-  const DepthImage depth = depthFromImage(*image.raw, image.name);
-  return {depth.image.clone(), depth.unit_m};
+  const DepthImage depth = toDepth(image.message, image.name);
+  return {image.message.raw ? depth.image.clone() : depth.image, depth.unit_m};
 }
 
 cv::Mat toColor(const BagImage& image) {
-  return image.raw ? colorFromImage(*image.raw, image.name).clone()
-                   : colorFromCompressed(*image.compressed, image.name);
+  const cv::Mat color = toColor(image.message, image.name);
+  return image.message.raw ? color.clone() : color;
 }
 
 }  // namespace depth_fusion

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ros/bags/bag_file.h"
-#include "ros/conversions/image_conversions.h"
+#include "ros/conversions/image_message.h"
 
 namespace depth_fusion {
 
@@ -10,15 +10,13 @@ struct BagImage {
   std::string name;  // "file.bag: /topic", for messages
   double received_s = 0.0;
   double stamp_s = 0.0;  // of the header or, where that is zero, received_s
-  std::string frame_id;
-  sensor_msgs::ImageConstPtr raw;                   // null on a compressed topic
-  sensor_msgs::CompressedImageConstPtr compressed;  // null on a raw topic
+  ImageMessage message;
 };
 
 // Throws Error naming bag and topic if the message cannot be read.
 BagImage readImage(const rosbag::MessageInstance& place, const rosbag::Bag& bag);
 
-// Throw Error as the conversions do.
+// Decode the image into memory of its own. Throw Error as the conversions do.
 DepthImage toDepth(const BagImage& image);
 cv::Mat toColor(const BagImage& image);
 

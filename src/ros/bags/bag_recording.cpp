@@ -4,6 +4,7 @@
 #include <deque>
 #include <limits>
 
+#include "common/nearest.h"
 #include "recording/color_or_problem.h"
 #include "ros/bags/bag_images.h"
 #include "ros/bags/bag_sources.h"
@@ -85,23 +86,13 @@ class BagRecording : public Recording {
     frame.color_distortion = sources_.color_distortion;
     frame.T_C_D = sources_.T_C_D;
     checkDepthSize(frame.depth, frame.intrinsics, depth_image.name);
-    const BagImage* color_image = nearestColor(frame.stamp_s);
+    const BagImage* color_image = nearest(color_images_, max_pairing_gap_s_, [&](const BagImage& color) {
+      return std::abs(color.stamp_s - frame.stamp_s);
+    });
     if (color_image == nullptr) return frame;
     frame.color_stamp_s = color_image->stamp_s;
     readColorOrProblem(frame, [&] { return toColor(*color_image); });
     return frame;
-  }
-
-  const BagImage* nearestColor(double stamp_s) const {
-    const BagImage* nearest = nullptr;
-    double nearest_gap_s = max_pairing_gap_s_;
-    for (const BagImage& color : color_images_) {
-      const double gap_s = std::abs(color.stamp_s - stamp_s);
-      if (gap_s > nearest_gap_s || (nearest != nullptr && gap_s == nearest_gap_s)) continue;
-      nearest = &color;
-      nearest_gap_s = gap_s;
-    }
-    return nearest;
   }
 
   double max_pairing_gap_s_;

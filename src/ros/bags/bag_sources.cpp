@@ -54,7 +54,7 @@ class SourceFinder {
     sources.intrinsics = chooseIntrinsics(options_.intrinsics, own, depth_size, path_);
     sources.color_topic = colorTopic(sources.depth_topic);
     if (own && !options_.color_intrinsics && !sources.color_topic.empty())
-      findColorCamera(depth.frame_id, sources);
+      findColorCamera(depth.message.header().frame_id, sources);
     sources.remark = remark_;
     return sources;
   }

@@ -1,4 +1,4 @@
-// What of a bag makes its frames: the topics, the cameras, and tf between them.
+// Where the frames of a bag come from: its topics, its cameras, and tf between them.
 #pragma once
 
 #include <rosbag/bag.h>
@@ -21,8 +21,8 @@ struct BagSources {
   std::string remark;         // what the user should know about them, or empty
 };
 
-// Finds them, or takes the given ones. Throws Error naming the bag's topics if depth or intrinsics are not
-// there, or if the encoding of the depth, or of a colour topic that was given, is not one that is read.
+// Finds the sources, or takes the given ones. Throws Error naming the bag's topics if depth or intrinsics are
+// not there, or if the encoding of the depth, or of a colour topic that was given, is not one that is read.
 BagSources findSources(const rosbag::Bag& bag, const RecordingOptions& options);
 
 }  // namespace depth_fusion

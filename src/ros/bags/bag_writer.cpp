@@ -6,8 +6,8 @@
 
 #include "depth_fusion/common/error.h"
 #include "recording/depth_units.h"
-#include "ros/conversions/messages.h"
 #include "ros/bags/open_recording.h"
+#include "ros/conversions/messages.h"
 
 namespace depth_fusion {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "depth_fusion/common/error.h"
 #include "common/io/image_file.h"
+#include "depth_fusion/common/error.h"
 
 namespace depth_fusion {
 namespace {
@@ -47,7 +47,7 @@ void swapBytes(cv::Mat& image) {
   }
 }
 
-// In the message's own memory, where byte order and step are such as an image has here; else a copy.
+// Shares the message's memory if its byte order and step are those of an image here, and copies otherwise.
 cv::Mat pixelsOf(const sensor_msgs::Image& message, int type, const std::string& topic) {
   check(message.width > 0 && message.height > 0, topic + ": the image is empty");
   const size_t row_size = size_t{message.width} * CV_ELEM_SIZE(type);

@@ -18,24 +18,24 @@ struct DepthImage {
   double unit_m = 1.0;
 };
 
-// 16UC1 and mono16 (millimetres), 32FC1 (metres).
+// Takes 16UC1 and mono16 (millimetres) and 32FC1 (metres).
 DepthImage depthFromImage(const sensor_msgs::Image& message, const std::string& topic);
 
-// What compressed_depth_image_transport sends as png (16UC1, or 32FC1 as quantised inverse depth), or a plain
-// PNG of 16 bits (millimetres).
+// Takes what compressed_depth_image_transport sends as png (16UC1, or 32FC1 as quantised inverse depth), and
+// a plain PNG of 16 bits (millimetres).
 DepthImage depthFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic);
 
-// rgb8, bgr8, rgba8, bgra8 as CV_8UC3 BGR, mono8 as CV_8UC1.
+// Gives rgb8, bgr8, rgba8 and bgra8 as CV_8UC3 BGR, and mono8 as CV_8UC1.
 cv::Mat colorFromImage(const sensor_msgs::Image& message, const std::string& topic);
 
-// jpeg or png as CV_8UC3 BGR or CV_8UC1.
+// Gives jpeg or png as CV_8UC3 BGR or CV_8UC1.
 cv::Mat colorFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic);
 
-// Of a rectified image (image_rect*) the projection P, of another the camera matrix K.
+// Reads the projection P for a rectified image (image_rect*), the camera matrix K for another.
 CameraIntrinsics cameraFromInfo(const sensor_msgs::CameraInfo& info, const std::string& image_topic);
 
-// What the lens does to it; nothing to a rectified image. Throws Error for a model that is neither plumb_bob
-// nor rational_polynomial.
+// Says what the lens does to the image; nothing to a rectified one. Throws Error for a model that is neither
+// plumb_bob nor rational_polynomial.
 LensDistortion distortionFromInfo(const sensor_msgs::CameraInfo& info, const std::string& image_topic);
 
 }  // namespace depth_fusion

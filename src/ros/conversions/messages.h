@@ -21,23 +21,23 @@ ros::Time toRosTime(double stamp_s);
 
 std_msgs::Header makeHeader(const ros::Time& stamp, const std::string& frame_id);
 
-// A copy of the pixels.
+// Copies the pixels.
 sensor_msgs::Image makeImage(const std_msgs::Header& header, const cv::Mat& pixels,
                              const std::string& encoding);
-// CV_8UC3 BGR as bgr8, CV_8UC1 as mono8. Throws Error for other types.
+// Makes bgr8 of CV_8UC3 BGR and mono8 of CV_8UC1. Throws Error for other types.
 sensor_msgs::Image makeColorImage(const std_msgs::Header& header, const cv::Mat& color);
 
-// Millimetres in 16 bits as 16UC1, anything else in metres as 32FC1.
+// Makes 16UC1 of millimetres in 16 bits, and 32FC1 in metres of anything else.
 sensor_msgs::Image makeDepthImage(const std_msgs::Header& header, const cv::Mat& depth, double unit_m);
 
 sensor_msgs::CameraInfo makeCameraInfo(const std_msgs::Header& header, const CameraIntrinsics& camera,
                                        const LensDistortion& lens = {});
 
 geometry_msgs::Pose toMessage(const Pose& pose);
-// The covariance of the twist (rotation, translation) applied to the pose on the left, in ROS's order
-// (translation first).
+// `covariance` is that of the twist (rotation, translation) applied to the pose on the left; the message has
+// it in ROS's order, translation first.
 geometry_msgs::PoseWithCovariance toMessage(const Pose& pose, const Matrix6d& covariance);
-// T_header.frame_id_child.
+// `pose` maps points of the frame `child` into header.frame_id.
 geometry_msgs::TransformStamped makeTransform(const std_msgs::Header& header, const std::string& child,
                                               const Pose& pose);
 Pose fromMessage(const geometry_msgs::Transform& transform);

@@ -13,7 +13,7 @@ namespace depth_fusion {
 TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingResult& result);
 void setUsage(MapStatus& status, const BlockSparseMap::Usage& usage);
 
-// Level, summary and values. `problem` hinders frames before they get that far; empty if nothing does.
+// Set level, summary and values. `problem` hinders frames before they get that far; empty if nothing does.
 // `advice`: what to do if the frame is lost.
 void diagnose(const TrackerStatus& tracker, const std::string& problem, const std::string& advice,
               diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -22,11 +22,11 @@ visualization_msgs::Marker makeSurfaceMarker(const std::string& frame_id, int id
 visualization_msgs::Marker makeDeletion(const std::string& frame_id, int id);
 visualization_msgs::Marker makeDeletionOfAll(const std::string& frame_id);
 
-// The map's blocks as a CUBE_LIST.
+// Shows the map's blocks as a CUBE_LIST.
 visualization_msgs::Marker makeBlockMarker(const std::string& frame_id, const BlockSparseMap& map);
 
-// One vertex of the mesh, the first, in each cube of a grid of that spacing; all of them for a spacing of 0.
-// Without triangles.
+// Keeps the first vertex of the mesh in each cube of a grid of that spacing, or all of them for a spacing of
+// 0, and no triangle.
 TriangleMesh thinned(const TriangleMesh& mesh, float spacing_m);
 
 // The vertices of the meshes: x, y, z, normal_x, normal_y, normal_z and rgb, as PCL names and packs them.

@@ -16,7 +16,7 @@ class DeviceCameras {
   // The calibrations are this device's.
   void setDevice(const std::string& serial);
 
-  // As calibrated for images of this size; else square pixels with this horizontal field of view.
+  // The calibration if it is for images of this size, else square pixels with this horizontal field of view.
   sensor_msgs::CameraInfo colorInfo(int width, int height, double field_of_view_rad);
   sensor_msgs::CameraInfo depthInfo(int width, int height, double field_of_view_rad);
 

@@ -4,6 +4,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "ros/conversions/messages.h"
+#include "ros/input/device_messages.h"
 
 namespace depth_fusion {
 namespace {
@@ -12,59 +13,8 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kRetry_s = 0.5;
 constexpr double kWait_s = 0.1;
-constexpr double kLate_s = 0.1;  // as long as the others wait for colour
-constexpr int kManyInARow = 15;
-constexpr double kMillimetre_m = 0.001;
-
-// Around the pixels as they are; when the last reader has done with it, the device has them back.
-sensor_msgs::ImagePtr makeMessage(DeviceImage image, const std_msgs::Header& header,
-                                  std::shared_ptr<FrameBuffers> buffers) {
-  const sensor_msgs::ImagePtr message(new sensor_msgs::Image,
-                                      [buffers = std::move(buffers)](sensor_msgs::Image* done) {
-                                        buffers->recycle(std::move(done->data));
-                                        delete done;
-                                      });
-  message->header = header;
-  message->width = static_cast<uint32_t>(image.width);
-  message->height = static_cast<uint32_t>(image.height);
-  message->encoding = image.encoding;
-  message->step = static_cast<uint32_t>(image.step);
-  message->data = std::move(image.pixels);
-  return message;
-}
-
-// ROS has 16 bits for millimetres only.
-sensor_msgs::ImagePtr inMetres(DeviceImage image, const std_msgs::Header& header) {
-  const cv::Mat depth(image.height, image.width, CV_16UC1, image.pixels.data(), image.step);
-  return boost::make_shared<sensor_msgs::Image>(makeDepthImage(header, depth, image.depth_unit_m));
-}
 
 }  // namespace
-
-ParameterTable DeviceTimeParameters::table() {
-  return {
-      {"use_device_time", &use_device_time, 0, 1,
-       "stamps by the camera's clock, set by the host's; false: the time of arrival"},
-      {"depth_time_offset", &depth_time_offset, -1.0, 1.0, "seconds added to the stamps of a camera's depth"},
-      {"color_time_offset", &color_time_offset, -1.0, 1.0,
-       "seconds added to the stamps of a camera's colour"},
-      {"ir_time_offset", &ir_time_offset, -1.0, 1.0, "seconds added to the stamps of a camera's infrared"}};
-}
-
-ParameterTable DevicePublisherParameters::table() {
-  ParameterTable rows = device.table();
-  for (const ParameterTable& more :
-       {atStartOnly({{"rgb_frame_id", &rgb_frame_id, 0, 0,
-                      "optical frame of a camera's colour, and of depth registered to it"},
-                     {"depth_frame_id", &depth_frame_id, 0, 0,
-                      "optical frame of a camera's infrared, and of other depth"},
-                     {"rgb_camera_info_url", &rgb_camera_info_url, 0, 0,
-                      "calibration; empty: ~/.ros/camera_info/rgb_SERIAL.yaml"},
-                     {"depth_camera_info_url", &depth_camera_info_url, 0, 0, "the same: depth_SERIAL.yaml"}}),
-        time.table()})
-    rows.insert(rows.end(), more.begin(), more.end());
-  return rows;
-}
 
 DevicePublisher::DevicePublisher(const SourceHost& host, const DevicePublisherParameters& parameters)
     : FrameSource(host),
@@ -114,8 +64,7 @@ void DevicePublisher::open() {
   device_ = openDevice(wanted);
   cameras_.setDevice(device_->serial());
   clock_ = {};
-  late_in_a_row_ = timely_in_a_row_ = 0;
-  color_is_late_ = false;
+  color_delay_.restart();
   ROS_INFO_STREAM(host_.name << ": " << device_->name() << ", serial number " << device_->serial());
   showState();
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -156,9 +105,7 @@ void DevicePublisher::publishNext() {
                                                                               : parameters_.depth_frame_id);
     const Output& output = outputOf(image.stream);
     output.info.publish(info);
-    const bool fits_ros = image.stream != ImageStream::kDepth || image.depth_unit_m == kMillimetre_m;
-    output.image.publish(fits_ros ? makeMessage(std::move(image), info->header, device_->buffers())
-                                  : inMetres(std::move(image), info->header));
+    output.image.publish(toMessage(std::move(image), info->header, device_->buffers()));
   }
   host_.record_timings(timers);
 }
@@ -185,25 +132,20 @@ double DevicePublisher::stampOf(const DeviceImage& image) {
 }
 
 void DevicePublisher::noteDelay(ImageStream stream, double stamp_s) {
-  if (stream == ImageStream::kDepth) last_depth_s_ = stamp_s;
-  if (stream != ImageStream::kColor) return;
-  const double delay_s = last_depth_s_ - stamp_s;
-  (delay_s > kLate_s ? timely_in_a_row_ : late_in_a_row_) = 0;
-  const int in_a_row = ++(delay_s > kLate_s ? late_in_a_row_ : timely_in_a_row_);
+  const bool was_late = color_delay_.isLate();
+  color_delay_.note(stream, stamp_s);
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    color_delay_s_ = delay_s;
+    color_delay_s_ = color_delay_.delay_s();
   }
-  if (in_a_row < kManyInARow || color_is_late_ == (delay_s > kLate_s)) return;
-  color_is_late_ = !color_is_late_;
-  showState();
+  if (color_delay_.isLate() != was_late) showState();
 }
 
 void DevicePublisher::showState() {
   std::string text;
   const auto add = [&](const std::string& problem) { text += (text.empty() ? "" : "; ") + problem; };
   for (const std::string& shortcoming : device_->shortcomings()) add(shortcoming);
-  if (color_is_late_)
+  if (color_delay_.isLate())
     add(device_->name() +
         " delivers colour too late for its depth: fusion goes on without colour; ask for fewer pixels with "
         "color_mode, or give color_depth_synchronization");

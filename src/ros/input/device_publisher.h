@@ -7,28 +7,12 @@
 #include <string>
 
 #include "acquisition/device_clock.h"
-#include "depth_fusion/acquisition/rgbd_device.h"
+#include "ros/input/color_delay.h"
 #include "ros/input/device_cameras.h"
+#include "ros/input/device_publisher_parameters.h"
 #include "ros/input/frame_source.h"
 
 namespace depth_fusion {
-
-// The names are openni2_camera's.
-struct DeviceTimeParameters {
-  bool use_device_time = true;
-  float depth_time_offset = -0.033f, color_time_offset = -0.033f, ir_time_offset = -0.033f;  // seconds
-
-  ParameterTable table();
-};
-
-struct DevicePublisherParameters {
-  DeviceParameters device;
-  std::string rgb_frame_id = "camera_rgb_optical_frame", depth_frame_id = "camera_depth_optical_frame";
-  std::string rgb_camera_info_url, depth_camera_info_url;
-  DeviceTimeParameters time;
-
-  ParameterTable table();
-};
 
 class DevicePublisher : public FrameSource {
  public:
@@ -68,9 +52,7 @@ class DevicePublisher : public FrameSource {
   DeviceCameras cameras_;
   std::unique_ptr<RgbdDevice> device_;
   DeviceClock clock_;
-  double last_depth_s_ = 0.0;
-  int late_in_a_row_ = 0, timely_in_a_row_ = 0;
-  bool color_is_late_ = false;
+  ColorDelay color_delay_;
 };
 
 }  // namespace depth_fusion

@@ -10,11 +10,11 @@
 #include <string>
 
 #include "depth_fusion/common/stage_timers.h"
-#include "ros/input/frame_counter.h"
+#include "ros/in_process/frame_counter.h"
 
 namespace depth_fusion {
 
-// What a source has of its nodelet, which outlives it.
+// What a source needs of its nodelet, which outlives it.
 struct SourceHost {
   ros::NodeHandle handle;
   std::string name;  // begins every line of the log
@@ -29,19 +29,19 @@ class FrameSource {
 
   // Publishes frames until stop(), or until there are no more.
   virtual void run() = 0;
-  // From any thread.
+  // Ends run(). May be called from any thread.
   void stop();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
-  // The nodelet's parameters have changed.
+  // Is called when the nodelet's parameters have changed.
   virtual void applyParameters() {}
 
  protected:
-  // False if stopping.
+  // Sleeps until stop() at most. Returns false when stopped.
   bool sleep(double seconds);
-  // For the user, until the next one; nothing while all is well. Warnings and errors are logged, too, once
-  // each.
+  // Says in diagnostics how the source is, until the next call; an empty text means that all is well.
+  // Warnings and errors are logged, too, once each.
   void setState(unsigned char level, const std::string& state);
-  // Values for diagnostics; called with the mutex held.
+  // Adds values to diagnostics. It is called with the mutex held.
   virtual void addValues(diagnostic_updater::DiagnosticStatusWrapper&) {}
 
   const SourceHost host_;

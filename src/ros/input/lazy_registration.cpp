@@ -4,17 +4,13 @@
 
 namespace depth_fusion {
 
-void LazyRegistration::setParameters(const RegistrationParameters& parameters) {
-  parameters_ = parameters;
-  if (registration_ != nullptr) registration_->setParameters(parameters);
-}
-
-RgbdFrame LazyRegistration::process(const RgbdFrame& frame) {
-  if (!needsRegistration(frame, parameters_)) return withDepthUnit(frame, parameters_);
+RgbdFrame LazyRegistration::process(const RgbdFrame& frame, const RegistrationParameters& parameters) {
+  if (!needsRegistration(frame, parameters)) return withDepthUnit(frame, parameters);
   if (registration_ == nullptr) {
     compute_ = sharedCompute(device_)->anotherQueue();
-    registration_ = std::make_unique<FrameRegistration>(*compute_, parameters_);
+    registration_ = std::make_unique<FrameRegistration>(*compute_, parameters);
   }
+  registration_->setParameters(parameters);
   return registration_->process(frame);
 }
 

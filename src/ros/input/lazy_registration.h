@@ -11,17 +11,13 @@ namespace depth_fusion {
 class LazyRegistration {
  public:
   // device: as ComputeContext has it.
-  LazyRegistration(const std::string& device, const RegistrationParameters& parameters)
-      : device_(device), parameters_(parameters) {}
+  explicit LazyRegistration(const std::string& device) : device_(device) {}
 
-  // For the frames to come.
-  void setParameters(const RegistrationParameters& parameters);
-  // As FrameRegistration does. Throws Error without a device, too.
-  RgbdFrame process(const RgbdFrame& frame);
+  // Does what FrameRegistration does. Throws Error without a device, too.
+  RgbdFrame process(const RgbdFrame& frame, const RegistrationParameters& parameters);
 
  private:
   std::string device_;
-  RegistrationParameters parameters_;
   std::unique_ptr<ComputeContext> compute_;  // null, as is the next, before the first frame that needs them
   std::unique_ptr<FrameRegistration> registration_;
 };

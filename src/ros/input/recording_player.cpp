@@ -2,11 +2,7 @@
 
 #include <rosgraph_msgs/Clock.h>
 
-#include <cmath>
-#include <sstream>
-
 #include "depth_fusion/common/error.h"
-#include "depth_fusion/common/percentile.h"
 #include "ros/conversions/messages.h"
 
 namespace depth_fusion {
@@ -15,7 +11,6 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kLastFrames_s = 1.0;  // until the last ones are through
-constexpr size_t kMaxLatencies = 100000;
 
 // All images in one frame.
 RegistrationParameters ontoColor() {
@@ -26,27 +21,8 @@ RegistrationParameters ontoColor() {
 
 }  // namespace
 
-ParameterTable PlayerParameters::table() {
-  return atStartOnly(
-      {{"recording", &recording, 0, 0, "a folder in the TUM or 7-Scenes layout, or a .bag or .oni file"},
-       {"camera_file", &camera_file, 0, 0,
-        "camera file in place of the recording's; lens distortion is taken out"},
-       {"depth_topic", &options.depth_topic, 0, 0, "of a bag, instead of the one found"},
-       {"color_topic", &options.color_topic, 0, 0, "of a bag, instead of the one found"},
-       {"device", &device, 0, 0,
-        "OpenCL device, as of icp_tracking; opened where depth is to be moved or a lens undistorted"},
-       {"frame_id", &frame_id, 0, 0, "optical frame of a recording's images"},
-       {"rate", &rate, 0.01, 100.0, "factor on the recording's speed"},
-       {"loop", &loop, 0, 1, "begin again at the end; the clock then jumps back"},
-       {"restamp", &restamp, 0, 1, "stamps of now, as a sensor's; false: the recording's"},
-       {"publish_clock", &publish_clock, 0, 1, "publish the stamps on /clock; for use_sim_time"},
-       {"lossless", &lossless, 0, 1, "the next frame waits until the one before is in the map, or lost"},
-       {"lossless_timeout_s", &lossless_timeout_s, 0.1, 3600.0, "how long it waits at most"},
-       {"settle_s", &settle_s, 0.0, 60.0, "begin when no subscriber has come or gone for so long"}});
-}
-
 RecordingPlayer::RecordingPlayer(const SourceHost& host, const PlayerParameters& parameters)
-    : FrameSource(host), parameters_(parameters), registration_(parameters.device, ontoColor()) {
+    : FrameSource(host), parameters_(parameters), registration_(parameters.device) {
   if (!parameters_.camera_file.empty()) readCamera(parameters_.camera_file, parameters_.options);
   recording_ = open();
   ROS_INFO_STREAM(host_.name << ": " << recording_->description());
@@ -58,12 +34,12 @@ RecordingPlayer::RecordingPlayer(const SourceHost& host, const PlayerParameters&
   if (parameters_.publish_clock) clock_publisher_ = handle.advertise<rosgraph_msgs::Clock>("/clock", 10);
   map_subscriber_ =
       handle.subscribe<MapStatus>("tsdf_fusion/status", 100, [this](const MapStatus::ConstPtr& status) {
-        if (status->fused && host_.counter.account().processed > 0) ++fused_;
+        if (hasBegun()) summary_.noteMap(*status);
         noteDone(status->header.stamp);
       });
   tracker_subscriber_ = handle.subscribe<TrackerStatus>("icp_tracking/status", 100,
                                                         [this](const TrackerStatus::ConstPtr& status) {
-                                                          noteTracking(*status);
+                                                          if (hasBegun()) summary_.noteTracking(*status);
                                                           if (status->state >= TrackerStatus::LOST)
                                                             noteDone(status->header.stamp);
                                                         });
@@ -94,7 +70,9 @@ void RecordingPlayer::play() {
     playOnce();
     recording_.reset();
   } while (parameters_.loop && sleep(0.0));
-  if (sleep(kLastFrames_s)) ROS_INFO_STREAM(host_.name << ": the recording has ended: " << summary());
+  if (sleep(kLastFrames_s))
+    ROS_INFO_STREAM(host_.name << ": the recording has ended: "
+                               << summary_.text(host_.counter.account().processed, parameters_.restamp));
   setState(DiagnosticStatus::OK, "the recording has ended");
 }
 
@@ -129,7 +107,7 @@ void RecordingPlayer::playOnce() {
       continue;
     }
     if (!frame) return;
-    frame = registration_.process(*frame);
+    frame = registration_.process(*frame, ontoColor());
     host_.counter.receive();
     if (!parameters_.lossless) awaitTime(frame->stamp_s);
     ros::Time stamp;
@@ -186,30 +164,6 @@ void RecordingPlayer::noteDone(const ros::Time& stamp) {
     done_ = stamp;
   }
   changed_.notify_all();
-}
-
-void RecordingPlayer::noteTracking(const TrackerStatus& status) {
-  if (host_.counter.account().processed == 0) return;  // latched, of frames before
-  if (status.state >= TrackerStatus::LOST) {
-    ++lost_;
-    return;
-  }
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (latencies_ms_.size() == kMaxLatencies) latencies_ms_.clear();
-  latencies_ms_.push_back(1e3 * status.latency_s);
-}
-
-std::string RecordingPlayer::summary() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  std::ostringstream text;
-  const size_t sent = host_.counter.account().processed;
-  text << sent << " frames sent, " << fused_ << " fused, " << lost_ << " lost, "
-       << sent - std::min(sent, fused_ + lost_) << " dropped";
-  if (parameters_.restamp) {
-    text << "; pose " << std::lround(percentile(latencies_ms_, 0.5)) << " ms after the image (median), "
-         << std::lround(percentile(latencies_ms_, 0.95)) << " ms (95 %)";
-  }
-  return text.str();
 }
 
 }  // namespace depth_fusion

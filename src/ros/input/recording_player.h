@@ -1,28 +1,15 @@
 // Plays a recording as a sensor driver would publish it.
 #pragma once
 
-#include <depth_fusion/MapStatus.h>
-#include <depth_fusion/TrackerStatus.h>
-
-#include <atomic>
 #include <optional>
-#include <vector>
 
-#include "depth_fusion/common/parameters.h"
+#include "ros/bags/open_recording.h"
 #include "ros/input/frame_source.h"
 #include "ros/input/lazy_registration.h"
-#include "ros/bags/open_recording.h"
+#include "ros/input/playback_summary.h"
+#include "ros/input/player_parameters.h"
 
 namespace depth_fusion {
-
-struct PlayerParameters {
-  std::string recording, camera_file, device, frame_id = "camera_rgb_optical_frame";
-  RecordingOptions options;
-  bool lossless = false, loop = false, restamp = false, publish_clock = false;
-  float rate = 1.0f, lossless_timeout_s = 60.0f, settle_s = 1.0f;
-
-  ParameterTable table();
-};
 
 class RecordingPlayer : public FrameSource {
  public:
@@ -36,18 +23,17 @@ class RecordingPlayer : public FrameSource {
   std::unique_ptr<Recording> open() const;
   void play();
   void playOnce();
-  // Until everybody has connected who will.
+  // Waits until everybody has connected who will.
   void awaitListeners();
   void awaitTime(double stamp_s);
-  // Returns the stamp.
+  // Returns the stamp that the frame went out with.
   ros::Time publish(const RgbdFrame& frame);
-  // Until the frame is in the map, or lost; at most lossless_timeout_s.
+  // Waits until the frame is in the map, or lost; at most lossless_timeout_s.
   void awaitMap(const ros::Time& stamp);
 
+  // False as long as what is heard is of frames before.
+  bool hasBegun() const { return host_.counter.account().processed > 0; }
   void noteDone(const ros::Time& stamp);
-  void noteTracking(const TrackerStatus& status);
-  // What has become of the frames so far.
-  std::string summary();
 
   PlayerParameters parameters_;
   LazyRegistration registration_;
@@ -56,9 +42,8 @@ class RecordingPlayer : public FrameSource {
       clock_publisher_;
   ros::Subscriber map_subscriber_, tracker_subscriber_;
 
-  std::atomic<size_t> fused_{0}, lost_{0};
-  std::vector<double> latencies_ms_;  // of the poses
-  std::optional<ros::Time> done_;     // the frame of which was heard last that it is in the map, or lost
+  PlaybackSummary summary_;
+  std::optional<ros::Time> done_;  // the frame of which was heard last that it is in the map, or lost
   double first_stamp_s_ = -1.0;
   ros::WallTime first_sent_;
 };

@@ -1,34 +1,22 @@
 // Depth images with the colour images that belong to them, from a driver's topics.
 #pragma once
 
-#include <ros/node_handle.h>
 #include <ros/wall_timer.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/CompressedImage.h>
-#include <sensor_msgs/Image.h>
-#include <tf2_ros/transform_listener.h>
 
-#include <deque>
+#include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 
-#include "ros/input/frame_counter.h"
-#include "ros/in_process/frames.h"
+#include "ros/in_process/frame_counter.h"
+#include "ros/input/image_topic.h"
 #include "ros/input/lazy_registration.h"
+#include "ros/input/rgbd_pairing.h"
+#include "ros/input/sensor_cameras.h"
+#include "ros/input/stamp_policy.h"
 
 namespace depth_fusion {
-
-struct RgbdParameters {
-  std::string depth_transport = "raw";
-  std::string color_transport = "raw";
-  float max_pairing_gap_s = 0.02f;
-  float max_color_wait_s = 0.1f;
-  RegistrationParameters registration;  // a table of its own
-
-  ParameterTable table();
-};
 
 // Subscribes depth/image, depth/camera_info, rgb/image and rgb/camera_info of the node handle's namespace, or
 // with a compressed transport depth/image/compressedDepth, rgb/image/compressed. A depth image goes on with
@@ -39,70 +27,50 @@ class RgbdSubscriber {
  public:
   using Callback = std::function<void(const SensorFramePtr&)>;
 
-  // Frames come in the order of their stamps, from the threads of the handle's callback queue.
-  // device: as ComputeContext has it; opened if a frame needs it.
+  // Frames come one at a time and in the order of their stamps, from the threads of the handle's callback
+  // queue. device: as ComputeContext has it; opened if a frame needs it.
   RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& parameters, const std::string& device,
                  FrameCounter& counter, Callback callback);
+  // Waits for the callback in progress; there is none afterwards.
+  ~RgbdSubscriber() = default;
 
-  // For the images to come; the transports stay.
+  // For the images to come; the transports stay. Does not wait for a frame at work.
   void setParameters(const RgbdParameters& parameters);
 
-  // Waits for what its callbacks are at.
-  ~RgbdSubscriber();
-
-  // What hinders frames now, for diagnostics; empty if nothing does.
+  // What hinders frames now, for diagnostics; empty if nothing does. Does not wait for a frame at work.
   std::string problem() const;
 
  private:
-  struct PendingDepth {
-    std::shared_ptr<SensorFrame> frame;
-    ros::WallTime received;
-  };
-  struct ColorImage {
-    std_msgs::Header header;
-    sensor_msgs::ImageConstPtr raw;  // one of the two
-    sensor_msgs::CompressedImageConstPtr compressed;
-  };
-
-  void subscribe(ros::NodeHandle& handle);
-  void onDepth(const std_msgs::Header& header, const std::function<void(SensorFrame&)>& decode);
-  void onColor(ColorImage color);
+  void onDepth(const ImageMessage& image);
+  void onColor(const ImageMessage& image);
   // Sees to the order of the stamps. False if the frame is not to be used.
   bool takeStamp(SensorFrame& frame);
-  void takeCamera(SensorFrame& frame) const;
-  void takeColorCamera(SensorFrame& frame) const;
-  void registerFrame(SensorFrame& frame);
-  // The colour camera's frame, if that is another than the depth's; else empty.
-  std::string otherColorFrame(const std_msgs::Header& depth) const;
-  Pose lookUpColorCamera(const std::string& color_frame, const std::string& depth_frame) const;
-  // Sends on the depth images whose colour is there or will not come.
-  void release();
-  bool isComplete(const PendingDepth& depth);
-  // What the camera_info topics and tf say about the cameras is there.
-  bool knowsCameras(const std_msgs::Header& depth);
-  void addColor(SensorFrame& frame);
-  const ColorImage* nearestColor(const ros::Time& stamp) const;
-  void drop(const std::string& reason, const std::string& detail = "");
+  // Waits for its turn, then sends on the frames that are complete. Messages so wait on their topics while a
+  // frame is at work.
+  void deliverComplete();
+  std::optional<RgbdPairing::Pair> takeComplete();
+  void deliver(const RgbdPairing::Pair& pair, const RegistrationParameters& registration);
+  void addColor(SensorFrame& frame, const ImageMessage& image) const;
+  void drop(const std::string& reason, const std::string& detail);
 
-  ros::NodeHandle handle_;
-  RgbdParameters parameters_;
-  LazyRegistration registration_;
+  const std::string depth_topic_, color_topic_;
   FrameCounter& counter_;
-  Callback callback_;
-  mutable std::mutex mutex_;
-  std::string depth_topic_, color_topic_, info_topic_;
-  ros::Subscriber depth_subscriber_, color_subscriber_, depth_info_subscriber_, color_info_subscriber_;
-  ros::WallTimer timer_;
-  sensor_msgs::CameraInfoConstPtr depth_info_, color_info_;
-  std::deque<PendingDepth> pending_;
-  std::deque<ColorImage> colors_;
-  std::optional<ros::Time> last_stamp_;
-  ros::WallTime last_depth_;  // arrived
-  uint32_t clock_jumps_ = 0;
+  const Callback callback_;
+  SensorCameras cameras_;
+  StampPolicy stamps_;             // only onDepth() uses it
+  LazyRegistration registration_;  // only the thread that delivers uses it
+
+  mutable std::mutex mutex_;  // guards the next six, and is never held while a frame is at work
+  std::condition_variable turn_;
+  bool delivering_ = false;  // some thread is
+  RegistrationParameters registration_parameters_;
+  RgbdPairing pairing_;
+  ros::WallTime last_depth_;  // when it arrived
   std::string problem_;
-  // Made when first needed:
-  std::unique_ptr<tf2_ros::Buffer> tf_;
-  std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+
+  // These are last: they end, and with them every callback, before anything that the callbacks use.
+  ImageTopic color_, depth_;
+  ros::WallTimer timer_;
 };
 
 }  // namespace depth_fusion

@@ -14,7 +14,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/stage_timers.h"
-#include "ros/input/frame_counter.h"
+#include "ros/in_process/frame_counter.h"
 #include "ros/in_process/process_message.h"
 #include "ros/parameters/reconfigure_server.h"
 
@@ -54,12 +54,12 @@ class StageNodelet : public nodelet::Nodelet {
       const std::string& topic, const std::string& sender, Carries what,
       std::function<void(const boost::shared_ptr<const ProcessMessage<Payload>>&)> take);
 
-  // The last thing of start(): from here on diagnostics and timings go out, and parameters may change.
+  // Is called at the end of start(): diagnostics and timings go out from here on, and parameters may change.
   void startReporting();
-  // The first thing of a destructor.
+  // Is called at the beginning of the destructor.
   void stopReporting();
 
-  // Records what the scope takes as the stage's; thread-safe, unlike StageTimers.
+  // Adds what the timers have to the report. Thread-safe.
   void recordTimings(const StageTimers& timers);
 
   FrameCounter counter_;
@@ -69,7 +69,7 @@ class StageNodelet : public nodelet::Nodelet {
   void refuseFromOtherProcess(const std::string& sender, Carries what);
   void report();
   void diagnoseFrames(diagnostic_updater::DiagnosticStatusWrapper& status);
-  // Since the last report: none came, or many were skipped.
+  // Warns if no frame came since the last report, or if many were skipped.
   void warnOfMissingFrames(const FrameAccount& account, diagnostic_updater::DiagnosticStatusWrapper& status);
   void publishTimings();
 

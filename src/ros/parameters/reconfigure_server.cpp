@@ -10,7 +10,7 @@
 namespace depth_fusion {
 namespace {
 
-// Of this process. A change anywhere is made with the mutex held.
+// The servers of this process. The mutex is held while any of them makes a change.
 struct Servers {
   std::mutex mutex;
   std::vector<ReconfigureServer*> all;

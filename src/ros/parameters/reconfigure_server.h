@@ -38,7 +38,7 @@ class ReconfigureServer {
              dynamic_reconfigure::Reconfigure::Response& response);
   // Gives back what has changed.
   std::vector<Setting> change(const std::vector<Setting>& wanted);
-  // Between two frames. Gives back the rows that changed, with the texts they had.
+  // Is called between two frames. Gives back the rows that changed, with the texts they had.
   std::vector<Setting> take(const std::vector<Setting>& wanted);
   // Gives back the text it had; none if it stays. Throws Error if refused.
   std::optional<Setting> set(const Setting& wanted);

@@ -11,7 +11,7 @@ namespace depth_fusion {
 
 using OpenRecording = std::function<std::unique_ptr<Recording>()>;
 
-// Frames 0, n, 2n, ...
+// Gives the frames 0, n, 2n, ...
 std::unique_ptr<Recording> everyNth(std::unique_ptr<Recording> recording, size_t n);
 
 struct Interruption {
@@ -23,7 +23,7 @@ constexpr double kRepeatedLater_s = 1000.0;
 // The whole recording, then black frames, then a jump back to its start, kRepeatedLater_s later.
 std::unique_ptr<Recording> interrupted(const OpenRecording& open, const Interruption& interruption);
 
-// The poses of an interrupted recording.
+// Gives the poses of an interrupted recording.
 Trajectory repeated(const Trajectory& trajectory);
 
 }  // namespace depth_fusion

@@ -1,4 +1,4 @@
-#include "recording/altered_recording.h"
+#include "tools/simulation/altered_recording.h"
 
 #include <gtest/gtest.h>
 

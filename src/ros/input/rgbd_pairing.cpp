@@ -1,0 +1,53 @@
+#include "ros/input/rgbd_pairing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/nearest.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr size_t kColorsKept = 30;
+constexpr double kFuture_s = 1.0;  // colour this much later than a clock set back is from before
+
+}  // namespace
+
+void RgbdPairing::addDepth(const std::shared_ptr<SensorFrame>& frame, const ros::WallTime& now) {
+  waiting_.push_back({frame, now});
+}
+
+void RgbdPairing::addColor(const ros::Time& stamp, const ImageMessage& image) {
+  colors_.push_back({stamp, image});
+  if (colors_.size() > kColorsKept) colors_.pop_front();
+}
+
+bool RgbdPairing::firstIsComplete(const ros::WallTime& now, bool color_comes) const {
+  if (!color_comes && colors_.empty()) return true;
+  const ros::Time& stamp = first()->header.stamp;
+  return std::any_of(colors_.begin(), colors_.end(),
+                     [&](const Color& color) { return color.stamp >= stamp; }) ||
+         waited_s(now) > parameters_.max_wait_s;
+}
+
+RgbdPairing::Pair RgbdPairing::takeFirst() {
+  Pair pair{waiting_.front().frame, {}};
+  waiting_.pop_front();
+  const Color* color = nearest(colors_, parameters_.max_gap_s, [&](const Color& candidate) {
+    return std::abs((candidate.stamp - pair.frame->header.stamp).toSec());
+  });
+  if (color != nullptr) pair.color = color->image;
+  return pair;
+}
+
+size_t RgbdPairing::restart(const ros::Time& stamp) {
+  const size_t forgotten = waiting_.size();
+  waiting_.clear();
+  const ros::Time future = stamp + ros::Duration(kFuture_s);
+  colors_.erase(std::remove_if(colors_.begin(), colors_.end(),
+                               [&](const Color& color) { return color.stamp > future; }),
+                colors_.end());
+  return forgotten;
+}
+
+}  // namespace depth_fusion

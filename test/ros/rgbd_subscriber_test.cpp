@@ -1,0 +1,130 @@
+// Frames come one at a time and in order, and nobody but the next frame waits for the one at work.
+#include "ros/input/rgbd_subscriber.h"
+
+#include <atomic>
+#include <future>
+
+#include "support/nodelet_graph.h"
+
+namespace depth_fusion {
+namespace {
+
+// Long for whatever does not wait, and still short.
+constexpr std::chrono::seconds kLong(5);
+
+class RgbdSubscriberTest : public testing::Test {
+ protected:
+  RgbdSubscriberTest()
+      : graph_(std::string("rgbd_") + testing::UnitTest::GetInstance()->current_test_info()->name()),
+        frames_(simulatedFrames(smallRoom(6))),
+        camera_(graph_.handle()) {}
+
+  void subscribe(const RgbdSubscriber::Callback& callback) {
+    subscriber_ = std::make_unique<RgbdSubscriber>(graph_.handle(), RgbdParameters(), "", counter_, callback);
+    ASSERT_TRUE(camera_.awaitSubscribers());
+  }
+
+  uint64_t droppedFor(const std::string& reason) const {
+    const FrameAccount account = counter_.account();
+    for (size_t i = 0; i < account.reasons.size(); ++i) {
+      if (account.reasons[i] == reason) return account.dropped[i];
+    }
+    return 0;
+  }
+
+  NodeletGraph graph_;
+  std::vector<RgbdFrame> frames_;
+  FakeCamera camera_;
+  FrameCounter counter_;
+  std::unique_ptr<RgbdSubscriber> subscriber_;
+};
+
+TEST_F(RgbdSubscriberTest, FramesComeOneAtATimeInOrderEachWithItsColour) {
+  std::mutex mutex;
+  std::vector<SensorFramePtr> received;
+  std::atomic<int> at_work{0};
+  subscribe([&](const SensorFramePtr& frame) {
+    EXPECT_EQ(++at_work, 1);
+    ros::WallDuration(0.03).sleep();  // meanwhile the next images, and the timer, come in
+    --at_work;
+    const std::lock_guard<std::mutex> lock(mutex);
+    received.push_back(frame);
+  });
+  for (const RgbdFrame& frame : frames_) camera_.publish(frame);
+  camera_.publishDepth(frames_[2]);  // out of order
+  ASSERT_TRUE(eventually([&] {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return received.size() == frames_.size();
+  }));
+  EXPECT_TRUE(eventually([&] { return droppedFor("out of order") == 1; }));
+  subscriber_.reset();
+  ASSERT_EQ(received.size(), frames_.size());
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    EXPECT_EQ(received[i]->header.stamp, toRosTime(frames_[i].stamp_s)) << i;
+    EXPECT_EQ(cv::norm(received[i]->rgbd.color, frames_[i].color, cv::NORM_INF), 0.0) << i;
+  }
+  EXPECT_EQ(counter_.account().received, frames_.size() + 1);
+}
+
+TEST_F(RgbdSubscriberTest, NobodyWaitsForAFrameAtWork) {
+  std::promise<void> begun, finish;
+  std::atomic<int> frames{0};
+  subscribe([&](const SensorFramePtr&) {
+    if (frames++ > 0) return;
+    begun.set_value();
+    finish.get_future().wait();
+  });
+  camera_.publish(frames_[0]);
+  begun.get_future().wait();
+  camera_.publish(frames_[1]);
+  const auto asked = std::async(std::launch::async, [&] {
+    subscriber_->setParameters(RgbdParameters());
+    return subscriber_->problem();
+  });
+  EXPECT_EQ(asked.wait_for(kLong), std::future_status::ready);
+  EXPECT_EQ(frames, 1) << "frames come one at a time";
+  finish.set_value();
+  EXPECT_TRUE(eventually([&] { return frames == 2; }));
+}
+
+TEST_F(RgbdSubscriberTest, ItsEndWaitsForTheFrameAtWork) {
+  std::promise<void> begun;
+  std::atomic<bool> is_done{false};
+  std::atomic<int> frames{0};
+  subscribe([&](const SensorFramePtr&) {
+    if (frames++ == 0) begun.set_value();
+    ros::WallDuration(0.3).sleep();
+    is_done = true;
+  });
+  camera_.publish(frames_[0]);
+  begun.get_future().wait();
+  subscriber_.reset();
+  EXPECT_TRUE(is_done);
+  camera_.publish(frames_[1]);
+  ros::WallDuration(0.3).sleep();
+  EXPECT_EQ(frames, 1);
+}
+
+TEST_F(RgbdSubscriberTest, AClockSetBackIsCountedInEveryFrameAfterIt) {
+  std::mutex mutex;
+  std::vector<uint32_t> clock_jumps;
+  subscribe([&](const SensorFramePtr& frame) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    clock_jumps.push_back(frame->clock_jumps);
+  });
+  const auto publish = [&](RgbdFrame frame, double earlier_s, size_t count) {
+    frame.stamp_s -= earlier_s;
+    camera_.publish(frame);
+    EXPECT_TRUE(eventually([&] {
+      const std::lock_guard<std::mutex> lock(mutex);
+      return clock_jumps.size() == count;
+    }));
+  };
+  publish(frames_[0], 0.0, 1);
+  publish(frames_[0], 50.0, 2);
+  publish(frames_[1], 50.0, 3);
+  EXPECT_EQ(clock_jumps, (std::vector<uint32_t>{0, 1, 1}));
+}
+
+}  // namespace
+}  // namespace depth_fusion
