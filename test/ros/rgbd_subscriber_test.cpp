@@ -20,7 +20,9 @@ class RgbdSubscriberTest : public testing::Test {
         camera_(graph_.handle()) {}
 
   void subscribe(const RgbdSubscriber::Callback& callback) {
-    subscriber_ = std::make_unique<RgbdSubscriber>(graph_.handle(), RgbdParameters(), "", counter_, callback);
+    RgbdParameters parameters;
+    parameters.pairing.max_wait_s = 10.0f;  // colour comes, however slow the machine is
+    subscriber_ = std::make_unique<RgbdSubscriber>(graph_.handle(), parameters, "", counter_, callback);
     ASSERT_TRUE(camera_.awaitSubscribers());
   }
 
