@@ -1,12 +1,12 @@
 #include "depth_fusion/pipeline/mapper.h"
 
-#include "pipeline/depth_in_range.h"
+#include "depth_fusion/preprocessing/depth_range.h"
 
 namespace depth_fusion {
 
 Mapper::Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParameters& parameters,
                const CameraIntrinsics& camera)
-    : parameters_(withinSensorRange(parameters)),
+    : parameters_(parameters),
       map_(map),
       fusion_(compute, map, parameters.tsdf_fusion),
       renderer_(compute, map, camera, parameters.model_view) {
@@ -17,13 +17,13 @@ Mapper::Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParam
 void Mapper::setParameters(const PipelineParameters& parameters) {
   fusion_.setParameters(parameters.tsdf_fusion);
   if (color_fusion_) color_fusion_->setParameters(parameters.color_fusion);
-  parameters_ = withinSensorRange(parameters);
+  parameters_ = parameters;
 }
 
 MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D,
                            StageTimers& timers) {
   MappingResult result;
-  if (map_.usage().blocks == 0) map_.reset(windowCentre(frame, parameters_.preprocessing, T_W_D));
+  if (map_.usage().blocks == 0) map_.reset(windowCentre(frame, parameters_.depthRange(), T_W_D));
   result.fusion = fusion_.integrate(depth, T_W_D, timers);
   if (color_fusion_) {
     result.color = color_fusion_->integrate(frame, depth, T_W_D, fusion_.visibleBlocks(),
@@ -33,8 +33,8 @@ MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, cons
 }
 
 const ModelView& Mapper::render(const Pose& T_W_D, StageTimers& timers) {
-  return renderer_.render(T_W_D, parameters_.preprocessing.min_range_m, parameters_.preprocessing.max_range_m,
-                          timers);
+  const DepthRange range = parameters_.depthRange();
+  return renderer_.render(T_W_D, range.min_m, range.max_m, timers);
 }
 
 std::vector<int> Mapper::updatedBlocks(const MappingResult& last) const {

@@ -1,6 +1,5 @@
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace depth_fusion {
@@ -22,12 +21,6 @@ ParameterTable PipelineParameters::table() {
     all.insert(all.end(), rows.begin(), rows.end());
   }
   return all;
-}
-
-PipelineParameters withinSensorRange(PipelineParameters parameters) {
-  float& max_range_m = parameters.preprocessing.max_range_m;
-  max_range_m = std::min(max_range_m, parameters.depth_sensor.maxRange_m());
-  return parameters;
 }
 
 }  // namespace depth_fusion

@@ -11,7 +11,7 @@ namespace {
 constexpr CameraIntrinsics kCamera{160, 120, 130.0, 130.0, 79.5, 59.5};
 constexpr int kFrames = 3;  // the first begins, the second is tracked, the third has a velocity
 
-// With bumps, that it can be tracked by.
+// The wall has bumps that it can be tracked by.
 RgbdFrame wallAt(float depth_m) {
   RgbdFrame frame;
   frame.intrinsics = kCamera;

@@ -6,6 +6,7 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
+#include "depth_fusion/preprocessing/depth_range.h"
 #include "preprocessing/preprocessing_kernels.h"
 
 namespace depth_fusion {
@@ -26,7 +27,7 @@ SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParam
 // With the range that the sensor's noise allows.
 PreprocessingParameters limited(PreprocessingParameters parameters, const DepthSensorParameters& sensor) {
   validateRange(parameters, sensor);
-  parameters.max_range_m = std::min(parameters.max_range_m, sensor.maxRange_m());
+  parameters.max_range_m = depthRange(parameters, sensor).max_m;
   return parameters;
 }
 
@@ -117,6 +118,14 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
   uploadWeights(frame.weights);
   const DeviceBuffer none;
   kernels_->packMeasurements(result, frame.weights.empty() ? none : weights_, result.measurements);
+  return result;
+}
+
+const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vector6d& velocity,
+                                             StageTimers& timers) {
+  const StageTimers::Scope timer(timers, "preprocessing");
+  const DepthFrame& result = process(frame, velocity);
+  compute_.finish();
   return result;
 }
 

@@ -8,7 +8,7 @@
 namespace depth_fusion {
 namespace {
 
-// Small enough to be blind to a shift by a tenth of the image.
+// A thumbnail is small enough to be blind to a shift by a tenth of the image.
 constexpr int kThumbnailWidth_px = 32;
 constexpr int kThumbnailHeight_px = 24;
 constexpr double kThumbnailBlur_px = 2.0;
@@ -24,7 +24,7 @@ cv::Mat thumbnailOf(const FrameFeatures& features) {
   return norm > 0.0 ? cv::Mat(thumbnail / norm) : thumbnail;
 }
 
-// Below 1, the frames see much of the same.
+// How far apart two cameras stand; below 1 they see much of the same.
 double separation(const Pose& T_W_A, const Pose& T_W_B, const RelocalisationParameters& parameters) {
   const Pose T_A_B = T_W_A.inverse() * T_W_B;
   return std::max(T_A_B.translation().norm() / parameters.keyframe_distance_m,

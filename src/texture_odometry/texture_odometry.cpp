@@ -87,11 +87,6 @@ void setMotion(const MotionEstimate& estimate, const FrameFeatures& reference, c
 
 }  // namespace
 
-MotionPrior TextureOdometryResult::priorFrom(const Pose& T_W_previous) const {
-  const Matrix6d to_world = adjoint(T_W_previous);
-  return {orthonormalized(T_W_previous * T_previous_current), to_world * covariance * to_world.transpose()};
-}
-
 TextureOdometry::TextureOdometry(const TextureOdometryParameters& parameters,
                                  const DepthSensorParameters& sensor)
     : parameters_(parameters), sensor_(sensor) {
@@ -116,6 +111,16 @@ TextureOdometryResult TextureOdometry::process(const RgbdFrame& frame) {
   TextureOdometryResult result = match(previous_, current);
   previous_ = std::move(current);
   return result;
+}
+
+TexturedFrame TextureOdometry::texture(const RgbdFrame& frame, StageTimers& timers) {
+  if (!parameters_.enabled) {
+    reset();
+    return withoutTexture("texture_odometry/enabled is false");
+  }
+  const StageTimers::Scope timer(timers, "texture_odometry");
+  const TextureOdometryResult motion = process(frame);
+  return {previous_, motion};
 }
 
 FrameFeatures TextureOdometry::extract(const RgbdFrame& frame) const {

@@ -60,7 +60,10 @@ TEST_F(Live, ModesStopMappingAndTracking) {
   EXPECT_FALSE(localised->fused);
   EXPECT_EQ(localised->mode, MapStatus::LOCALISATION);
   EXPECT_EQ(localised->blocks, map_status_.all()[4]->blocks);
-  EXPECT_EQ(track(frames[6])->state, TrackerStatus::TRACKING);
+  const auto tracked = track(frames[6]);
+  EXPECT_EQ(tracked->state, TrackerStatus::TRACKING);
+  EXPECT_EQ(tracked->prior, "texture");
+  EXPECT_EQ(tracker_status_.all().front()->prior, "start");
 
   setMode(SetMode::Request::PAUSED);
   EXPECT_NE(map_status_.await([](const MapStatus& status) { return status.mode == MapStatus::PAUSED; }),

@@ -83,7 +83,7 @@ class UnregisteredDepth : public testing::Test {
           Pose(Eigen::Translation3d(pose.position.x, pose.position.y, pose.position.z)) *
           Eigen::Quaterniond(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z));
     }
-    const auto motion = textured.awaitStamp(toRosTime(frames.back().stamp_s))->payload->motion;
+    const auto motion = textured.awaitStamp(toRosTime(frames.back().stamp_s))->payload->texture.motion;
     EXPECT_TRUE(motion.found) << motion.reason;
     const Pose T_W_first = *frames.front().T_W_D * T_D_camera, T_W_last = *frames.back().T_W_D * T_D_camera;
     const Pose error = (T_W_first.inverse() * T_W_last).inverse() * found.front().inverse() * found.back();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "depth_fusion/geometry/pose.h"
 
@@ -9,9 +10,21 @@ namespace depth_fusion {
 
 struct MotionPrior {
   Pose T_W_D = Pose::Identity();
-  // Of the twist (rotation, translation) applied to T_W_D on the left; none for a guess without a
-  // measurement.
+  // The covariance is that of the twist (rotation, translation) applied to T_W_D on the left; a guess without
+  // a measurement has none.
   std::optional<Matrix6d> covariance;
+  std::string origin;  // what says so: "texture", "last pose", "start"
+};
+
+// How the sensor moved since the frame before, as one of its origins (texture, wheels, a gyroscope) measures
+// it.
+struct FrameMotion {
+  std::string origin;
+  Pose T_previous_current = Pose::Identity();  // between depth camera frames
+  Matrix6d covariance = Matrix6d::Zero();  // of the twist (rotation, translation) applied to it on the left
+
+  // The current frame's pose, if the previous one's is known exactly.
+  MotionPrior priorFrom(const Pose& T_W_previous) const;
 };
 
 }  // namespace depth_fusion

@@ -28,7 +28,7 @@ struct RgbdFrame {
   std::optional<Pose> T_W_D;  // reference pose, where the recording has one for this very frame
 };
 
-// Of the frame's colour image.
+// The camera of the frame's colour image.
 inline CameraIntrinsics colorCamera(const RgbdFrame& frame) {
   return frame.color_intrinsics.value_or(frame.intrinsics);
 }

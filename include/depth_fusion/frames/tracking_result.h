@@ -18,6 +18,7 @@ struct TrackingResult {
   std::string reason;             // why tracking is lost, or which directions are free; else empty
   Pose T_W_D = Pose::Identity();  // valid unless lost
   Matrix6d covariance = Matrix6d::Identity();  // of the twist applied to T_W_D on the left
+  std::string prior;  // the origin of the prior that tracking began with; empty if the frame was not tracked
   int inliers = 0;
   double inlier_fraction = 0.0;  // of the frame's points with depth and normal
   double rmse_m = 0.0;  // of the inliers' point-to-plane distances, weighted by the sensor's accuracy

@@ -6,6 +6,7 @@
 #include "depth_fusion/icp_tracking/icp_tracking_parameters.h"
 #include "depth_fusion/map/map_parameters.h"
 #include "depth_fusion/model_view/model_view_parameters.h"
+#include "depth_fusion/preprocessing/depth_range.h"
 #include "depth_fusion/preprocessing/preprocessing_parameters.h"
 #include "depth_fusion/registration/registration_parameters.h"
 #include "depth_fusion/relocalisation/relocalisation_parameters.h"
@@ -30,9 +31,8 @@ struct PipelineParameters {
 
   // The rows of all the stages, named "<stage>/<name>".
   ParameterTable table();
+  // The depth that every stage uses.
+  DepthRange depthRange() const { return depth_fusion::depthRange(preprocessing, depth_sensor); }
 };
-
-// Where the sensor's noise limits the range, every stage goes by it.
-PipelineParameters withinSensorRange(PipelineParameters parameters);
 
 }  // namespace depth_fusion

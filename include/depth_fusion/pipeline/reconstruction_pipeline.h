@@ -1,10 +1,11 @@
 // One frame's way through all the stages.
 #pragma once
 
-#include <future>
+#include <memory>
 
-#include "depth_fusion/pipeline/frame_tracker.h"
+#include "depth_fusion/pipeline/frame_ahead.h"
 #include "depth_fusion/pipeline/mapper.h"
+#include "depth_fusion/pipeline/tracking_session.h"
 
 namespace depth_fusion {
 
@@ -21,37 +22,26 @@ class ReconstructionPipeline {
   ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
                          const CameraIntrinsics& camera);
 
-  // A lost frame changes nothing in the map. `next` is the frame that the next call is for, if it is there
-  // already: its texture odometry runs beside this frame's stages, and its preprocessing beside this frame's
-  // fusion and model view.
+  // Tracks the frame and fuses it; a lost frame changes nothing in the map. `next` announces the frame of the
+  // next call, if it is there already: its texture odometry then runs beside this frame's stages, and its
+  // preprocessing beside this frame's fusion and model view, with the same results. Throws Error if another
+  // frame was announced.
   FrameResult processFrame(const RgbdFrame& frame, const RgbdFrame* next = nullptr);
 
-  // The same with a pose from elsewhere in place of tracking; lost only if there is no depth.
+  // Fuses the frame at a pose from elsewhere; it is lost only if nothing of it can be fused. Throws Error if
+  // a frame was announced.
   FrameResult processFrame(const RgbdFrame& frame, const Pose& T_W_D);
 
   BlockSparseMap& map() { return map_; }
   StageTimers& timers() { return timers_; }
   const PipelineParameters& parameters() const { return parameters_; }
-  size_t keyframeCount() const { return tracker_.keyframeCount(); }
+  size_t keyframeCount() const { return session_.keyframeCount(); }
 
  private:
-  // A frame's features, and its motion against the frame before.
-  struct TexturedFrame {
-    FrameFeatures features;
-    TextureOdometryResult motion;
-    StageTimers timers;
-  };
-  // With where it is expected; its depth is preprocessed.
-  struct PreparedFrame : TexturedFrame {
-    MotionPrior prior;
-  };
-
-  TexturedFrame findMotion(const RgbdFrame& frame);
-  PreparedFrame prepare(const RgbdFrame& frame);
-  // Lost if nothing could be fused.
-  void fuse(const RgbdFrame& frame, const DepthFrame& depth, FrameResult& result);
-  // Tells the tracker that a frame, which it was told is accepted, is not in the map.
-  void withdraw();
+  // Fuses the session's frame, unless it is lost; it is lost if nothing could be fused.
+  void fuse(const RgbdFrame& frame, FrameResult& result);
+  // Renders the view that the next frame is tracked against.
+  void render(const FrameResult& result);
 
   PipelineParameters parameters_;
   StageTimers timers_;
@@ -59,11 +49,9 @@ class ReconstructionPipeline {
   TextureOdometry odometry_;
   Mapper mapper_;
   std::unique_ptr<ComputeContext> tracking_queue_;
-  FrameTracker tracker_;
+  TrackingSession session_;
   const ModelView* view_ = nullptr;  // of the last fused frame; none before the first
-  // Of the next frame; valid if the last call was given it.
-  std::future<TexturedFrame> textured_;
-  std::future<PreparedFrame> prepared_;
+  FrameAhead ahead_;
 };
 
 }  // namespace depth_fusion

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "depth_fusion/common/stage_timers.h"
 #include "depth_fusion/compute/compute_context.h"
 #include "depth_fusion/compute/device_buffer.h"
 #include "depth_fusion/compute/result_pool.h"
@@ -27,6 +28,8 @@ class DepthPreprocessor {
   // becomes that of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid
   // until the next call. Throws Error if the type or size of depth or weights is not the expected.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity = Vector6d::Zero());
+  // The same as a step of a frame's way: it is timed, and done when the call returns.
+  const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity, StageTimers& timers);
   // The last result, valid and unchanged for as long as it is held.
   std::shared_ptr<const DepthFrame> result() const { return results_.current(); }
 

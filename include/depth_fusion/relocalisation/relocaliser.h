@@ -1,4 +1,4 @@
-// Relocalisation: where the sensor may be, when tracking has lost it, from keyframes that look alike.
+// Keyframes say where the sensor may be when tracking has lost it: where it saw what looks alike.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -9,7 +9,7 @@
 
 namespace depth_fusion {
 
-// A frame of the past that a new one can be matched to; some 200 kB.
+// A frame of the past that a new one can be matched to; it takes some 200 kB.
 struct Keyframe {
   FrameFeatures features;  // without the smoothed images
   cv::Mat thumbnail;       // CV_32FC1, zero mean, unit norm
@@ -20,7 +20,7 @@ class Relocaliser {
  public:
   explicit Relocaliser(const RelocalisationParameters& parameters);
 
-  // For the frames to come; keyframes beyond max_keyframes go.
+  // The parameters hold for the frames to come; keyframes beyond max_keyframes go at once.
   void setParameters(const RelocalisationParameters& parameters);
 
   // Keeps the frame as a keyframe if it has features and no keyframe is near. When there are too many, the
@@ -28,7 +28,7 @@ class Relocaliser {
   void add(const FrameFeatures& features, const Pose& T_W_D);
   void reset() { keyframes_.clear(); }
 
-  // The keyframes whose thumbnails are most like the frame's, best first; at most max_candidates.
+  // Returns the keyframes whose thumbnails are most like the frame's, best first, and at most max_candidates.
   std::vector<const Keyframe*> candidates(const FrameFeatures& features) const;
 
   const std::vector<Keyframe>& keyframes() const { return keyframes_; }

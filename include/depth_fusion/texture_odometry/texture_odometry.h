@@ -4,10 +4,9 @@
 
 #include <string>
 
-#include "depth_fusion/frames/motion_prior.h"
+#include "depth_fusion/common/stage_timers.h"
 #include "depth_fusion/frames/rgbd_frame.h"
-#include "depth_fusion/frames/frame_features.h"
-#include "depth_fusion/frames/texture_motion.h"
+#include "depth_fusion/frames/textured_frame.h"
 #include "depth_fusion/texture_odometry/texture_odometry_parameters.h"
 
 namespace depth_fusion {
@@ -22,6 +21,9 @@ class TextureOdometry {
 
   // The motion against the frame of the last call.
   TextureOdometryResult process(const RgbdFrame& frame);
+  // The same with the frame's features, and timed; without either, but with the reason, unless texture
+  // odometry is enabled.
+  TexturedFrame texture(const RgbdFrame& frame, StageTimers& timers);
   void reset();
 
   // The features of the last call's frame.

@@ -3,10 +3,10 @@
 #include <filesystem>
 
 #include "apps/benchmark/resolution.h"
-#include "depth_fusion/common/error.h"
-#include "tools/plots/line_plot.h"
 #include "common/io/image_file.h"
 #include "common/io/text_file.h"
+#include "depth_fusion/common/error.h"
+#include "tools/plots/line_plot.h"
 
 namespace depth_fusion {
 namespace {
@@ -35,11 +35,11 @@ Comparison compare(ComputeContext& compute, PipelineParameters parameters, const
   check(!poses.empty(), "no frame could be tracked");
   ModelViewRenderer rays(compute, pipeline.map(), camera, {"ray_casting"});
   ModelViewRenderer triangles(compute, pipeline.map(), camera, {"marching_cubes"});
-  const PreprocessingParameters range = withinSensorRange(parameters).preprocessing;
+  const DepthRange range = parameters.depthRange();
   const auto time = [&](ModelViewRenderer& renderer, const Pose& T_W_D, StageTimers& timers) {
     StageTimers stages;
     const StageTimers::Scope timer(timers, "view");
-    renderer.render(T_W_D, range.min_range_m, range.max_range_m, stages);
+    renderer.render(T_W_D, range.min_m, range.max_m, stages);
   };
   StageTimers ray_times, triangle_times, warm_up;
   for (ModelViewRenderer* renderer : {&rays, &triangles}) time(*renderer, poses.front(), warm_up);

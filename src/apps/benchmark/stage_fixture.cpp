@@ -15,7 +15,7 @@ PipelineParameters fixtureParameters(const TrackingInput& input) {
   PipelineParameters parameters = input.parameters;
   parameters.map.color = true;
   parameters.map.pool_mib = 128;
-  return withinSensorRange(parameters);
+  return parameters;
 }
 
 // As of cfg/cameras/tum_freiburg1.yaml.
@@ -99,8 +99,8 @@ StageFixture::StageFixture(ComputeContext& compute, const TrackingInput& input)
   preprocess();
   next_preprocessor_.process(next_frame_, handVelocity());
   fuseDepth();
-  tracked_renderer_.render(T_W_D_, parameters_.preprocessing.min_range_m,
-                           parameters_.preprocessing.max_range_m, timers_);
+  const DepthRange range = parameters_.depthRange();
+  tracked_renderer_.render(T_W_D_, range.min_m, range.max_m, timers_);
 }
 
 const std::vector<StageFixture::Stage>& StageFixture::stages() {
@@ -159,8 +159,8 @@ void StageFixture::fuseColor() {
 }
 
 void StageFixture::renderView() {
-  renderer_.render(T_W_D_, parameters_.preprocessing.min_range_m, parameters_.preprocessing.max_range_m,
-                   timers_);
+  const DepthRange range = parameters_.depthRange();
+  renderer_.render(T_W_D_, range.min_m, range.max_m, timers_);
 }
 
 void StageFixture::extractMesh() {

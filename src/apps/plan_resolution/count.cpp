@@ -4,14 +4,15 @@
 #include <iostream>
 
 #include "depth_fusion/common/error.h"
-#include "tools/evaluation/block_count.h"
-#include "depth_fusion/pipeline/posed_preprocessor.h"
+#include "depth_fusion/pipeline/motion_model.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
+#include "depth_fusion/preprocessing/depth_preprocessor.h"
+#include "depth_fusion/preprocessing/depth_range.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/registration/registered_recording.h"
 #include "depth_fusion/surface_mesh/ply.h"
-#include "pipeline/depth_in_range.h"
 #include "ros/bags/open_recording.h"
+#include "tools/evaluation/block_count.h"
 
 namespace depth_fusion {
 namespace {
@@ -28,6 +29,12 @@ size_t endOfPass(const ResolutionPlan& plan, size_t first) {
   return end;
 }
 
+std::unique_ptr<DepthPreprocessor> preprocessorOf(const RgbdFrame& frame, ComputeContext& compute,
+                                                  const PipelineParameters& parameters) {
+  return std::make_unique<DepthPreprocessor>(compute, parameters.preprocessing, frame.intrinsics,
+                                             parameters.depth_sensor);
+}
+
 // Block selection for some of the rows, frame by frame.
 class SelectionPass {
  public:
@@ -36,13 +43,13 @@ class SelectionPass {
 
   void add(const RgbdFrame& frame, const Pose& T_W_D) {
     if (!preprocessor_) {
-      const Eigen::Vector3d centre_W = windowCentre(frame, options_.parameters.preprocessing, T_W_D);
-      preprocessor_ = std::make_unique<PosedPreprocessor>(compute_, options_.parameters, frame.intrinsics);
+      const Eigen::Vector3d centre_W = windowCentre(frame, options_.parameters.depthRange(), T_W_D);
+      preprocessor_ = preprocessorOf(frame, compute_, options_.parameters);
       for (PlanRow* row = begin_; row != end_; ++row) {
         selected_.push_back(std::make_unique<SelectedBlocks>(compute_, row->map, centre_W));
       }
     }
-    const DepthFrame& depth = preprocessor_->process(frame, T_W_D, timers_);
+    const DepthFrame& depth = preprocessor_->process(frame, motion_.moveTo(frame.stamp_s, T_W_D), timers_);
     for (const auto& selected : selected_) selected->add(depth, T_W_D);
   }
 
@@ -57,7 +64,8 @@ class SelectionPass {
   PlanRow* begin_;
   PlanRow* end_;
   StageTimers timers_;
-  std::unique_ptr<PosedPreprocessor> preprocessor_;
+  MotionModel motion_;
+  std::unique_ptr<DepthPreprocessor> preprocessor_;
   std::vector<std::unique_ptr<SelectedBlocks>> selected_;
 };
 
@@ -122,7 +130,8 @@ struct BlockCounting::Frames : BlockCounting::Surface {
     parameters.map.pool_mib = poolMebibytes(row);
     std::unique_ptr<BlockSparseMap> map;
     std::unique_ptr<Mapper> mapper;
-    std::unique_ptr<PosedPreprocessor> preprocessor;
+    MotionModel motion;
+    std::unique_ptr<DepthPreprocessor> preprocessor;
     StageTimers timers;
     forEachPosed(
         "trying N " + std::to_string(row.map.blocks_per_axis) + ", M " + std::to_string(row.map.block_size),
@@ -130,9 +139,10 @@ struct BlockCounting::Frames : BlockCounting::Surface {
           if (!map) {
             map = std::make_unique<BlockSparseMap>(compute, parameters.map);
             mapper = std::make_unique<Mapper>(compute, *map, parameters, frame.intrinsics);
-            preprocessor = std::make_unique<PosedPreprocessor>(compute, parameters, frame.intrinsics);
+            preprocessor = preprocessorOf(frame, compute, parameters);
           }
-          mapper->fuse(frame, preprocessor->process(frame, T_W_D, timers), T_W_D, timers);
+          const DepthFrame& depth = preprocessor->process(frame, motion.moveTo(frame.stamp_s, T_W_D), timers);
+          mapper->fuse(frame, depth, T_W_D, timers);
         });
     setBlocks(row, map->usage().blocks);
   }

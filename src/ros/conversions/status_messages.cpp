@@ -29,6 +29,7 @@ TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingRe
   status.inlier_fraction = result.inlier_fraction;
   status.rmse_m = result.rmse_m;
   status.smallest_eigenvalue = result.smallest_eigenvalue;
+  status.prior = result.prior;
   status.latency_s = (ros::Time::now() - header.stamp).toSec();
   return status;
 }

@@ -7,8 +7,12 @@
 #include <cmath>
 #include <memory>
 
-#include "depth_fusion/icp_tracking/icp_tracker.h"
-#include "depth_fusion/texture_odometry/texture_odometry.h"
+#include "depth_fusion/frames/depth_frame.h"
+#include "depth_fusion/frames/model_view.h"
+#include "depth_fusion/frames/rgbd_frame.h"
+#include "depth_fusion/frames/textured_frame.h"
+#include "depth_fusion/frames/tracking_result.h"
+#include "depth_fusion/texture_odometry/texture_odometry_parameters.h"
 #include "ros/in_process/process_message.h"
 
 namespace depth_fusion {
@@ -21,21 +25,21 @@ struct SensorFrame {
   RgbdFrame rgbd;           // its pixels may lie in the messages below
   sensor_msgs::ImageConstPtr depth_message, color_message;
   ros::WallTime received = ros::WallTime::now();
-  uint32_t clock_jumps = 0;  // backwards, before this frame
+  uint32_t clock_jumps = 0;  // how often the clock had jumped back before this frame
 };
 using SensorFramePtr = std::shared_ptr<const SensorFrame>;
 
-// Topic texture_odometry/frame.
-struct TexturedFrame {
+// What travels on the topic texture_odometry/frame.
+struct TexturedSensorFrame {
   SensorFramePtr sensor;
-  TextureOdometryResult motion;  // since the textured frame before
-  FrameFeatures features;
-  std::shared_ptr<const TextureOdometryParameters> parameters;  // of the two; null without texture odometry
+  TexturedFrame texture;
+  std::shared_ptr<const TextureOdometryParameters>
+      parameters;  // of the texture; null without texture odometry
 };
-using TexturedFramePtr = std::shared_ptr<const TexturedFrame>;
-using TexturedFrameMessage = ProcessMessage<TexturedFrame>;
+using TexturedFramePtr = std::shared_ptr<const TexturedSensorFrame>;
+using TexturedFrameMessage = ProcessMessage<TexturedSensorFrame>;
 
-// Topic icp_tracking/frame.
+// What travels on the topic icp_tracking/frame.
 struct TrackedFrame {
   SensorFramePtr sensor;
   std::shared_ptr<const DepthFrame> depth;  // preprocessed; null if lost
@@ -51,8 +55,8 @@ struct MapReset {
   ros::WallTime called;
   ros::Time stamp;
 
-  // A frame counts as from before if it was received by then; for a short time after, while images from
-  // before may still be on their way, also if its stamp, of the same clock, says so.
+  // Whether the frame was taken before the reset. It was if it was received by then. For a short time after,
+  // while images from before may still be on their way, it also was if its stamp, of the same clock, says so.
   bool isAfter(const SensorFrame& frame) const {
     constexpr double kOnTheirWay_s = 1.0, kSameClock_s = 10.0;
     if (frame.received < called) return true;
@@ -63,8 +67,8 @@ struct MapReset {
 
 enum class MapMode : uint8_t { kMapping, kLocalisation, kPaused };
 
-// Topic tsdf_fusion/model_view: the answer to each tracked frame, with its stamp, and news of a reset or of
-// another mode.
+// What travels on the topic tsdf_fusion/model_view: the answer to each tracked frame, with its stamp, and
+// news of a reset or of another mode.
 struct MapView {
   std::shared_ptr<const ModelView>
       view;                     // of the last accepted frame; null if there is nothing to be seen yet

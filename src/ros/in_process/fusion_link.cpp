@@ -40,21 +40,21 @@ std::vector<FusionNews> FusionLink::await() {
     if (!sent_ || !connected()) break;
     changed_.wait_for(lock, kPeriod, [this] { return stopping_ || !views_.empty(); });
   } while (!stopping_ && std::chrono::steady_clock::now() < give_up);
-  if (sent_ && !stopping_) news.push_back({FusionNews::kRejected, nullptr, nullptr});
+  if (sent_) news.push_back({stopping_ ? FusionNews::kRejected : FusionNews::kUnanswered, nullptr});
   sent_.reset();
   return news;
 }
 
 std::optional<FusionNews> FusionLink::newsOf(const MapViewMessage& message) {
   const MapView& view = *message.payload;
-  const bool answers = sent_ && message.header.stamp == sent_->frame->sensor->header.stamp;
+  const bool answers = sent_ && message.header.stamp == sent_->stamp;
   const bool accepted = answers && view.accepted;
   mode_ = view.mode;
   reset_ = view.reset;
   const bool other_map = view.map_generation != std::exchange(map_generation_, view.map_generation);
-  FusionNews news{FusionNews::kRejected, message.payload, nullptr};
+  FusionNews news{FusionNews::kRejected, message.payload};
   if (accepted) {
-    news = {FusionNews::kAccepted, message.payload, sent_->frame, sent_->T_W_D};
+    news.kind = FusionNews::kAccepted;
   } else if (other_map || (answers && sent_->begins_map)) {
     news.kind = FusionNews::kOtherMap;
   } else if (!answers) {
@@ -64,13 +64,12 @@ std::optional<FusionNews> FusionLink::newsOf(const MapViewMessage& message) {
   return news;
 }
 
-void FusionLink::send(const TexturedFramePtr& frame, std::shared_ptr<const DepthFrame> depth,
+void FusionLink::send(const SensorFramePtr& frame, std::shared_ptr<const DepthFrame> depth,
                       const TrackingResult& tracking) {
-  sent_ = Sent{frame, tracking.T_W_D, std::exchange(begins_map_, false)};
+  sent_ = Sent{frame->header.stamp, std::exchange(begins_map_, false)};
   frames_.publish(makeMessage<TrackedFrame>(
-      frame->sensor->header,
-      std::make_shared<TrackedFrame>(
-          TrackedFrame{frame->sensor, std::move(depth), tracking, map_generation_, sent_->begins_map})));
+      frame->header, std::make_shared<TrackedFrame>(TrackedFrame{frame, std::move(depth), tracking,
+                                                                 map_generation_, sent_->begins_map})));
 }
 
 }  // namespace depth_fusion

@@ -1,5 +1,5 @@
-// The tracker's line to tsdf_fusion: a tracked frame goes there, and its answer is awaited before the next
-// one.
+// The tracker's line to tsdf_fusion: a tracked frame goes there, and the answer to it is awaited before the
+// next frame is tracked.
 #pragma once
 
 #include <ros/publisher.h>
@@ -16,11 +16,9 @@ namespace depth_fusion {
 
 // What fusion said of the frame sent last, or of the map.
 struct FusionNews {
-  enum Kind { kAccepted, kRejected, kOtherMap };
+  enum Kind { kAccepted, kRejected, kUnanswered, kOtherMap };
   Kind kind;
-  std::shared_ptr<const MapView> view;  // null if there was no answer
-  TexturedFramePtr frame;               // the one accepted,
-  Pose T_W_D = Pose::Identity();        // and its pose
+  std::shared_ptr<const MapView> view;  // null if fusion did not say it itself
 };
 
 class FusionLink {
@@ -30,15 +28,16 @@ class FusionLink {
 
   // From any thread:
   void receive(const MapViewMessage::ConstPtr& view);
-  // await() returns at once from now on.
+  // Lets await() return at once from now on.
   void stop();
   bool connected() const { return frames_.getNumSubscribers() > 0; }
 
   // From the tracker's thread:
   // Waits for the answer to the frame sent last, and returns all that fusion said since the last call, oldest
-  // first. No answer for a minute, or nobody there to answer, counts as a rejection.
+  // first. A frame counts as unanswered after a minute, or if nobody is there to answer, and as rejected
+  // after stop().
   std::vector<FusionNews> await();
-  void send(const TexturedFramePtr& frame, std::shared_ptr<const DepthFrame> depth,
+  void send(const SensorFramePtr& frame, std::shared_ptr<const DepthFrame> depth,
             const TrackingResult& tracking);
   // The next frame that is sent begins the map anew.
   void beginMap() { begins_map_ = true; }
@@ -47,16 +46,15 @@ class FusionLink {
 
  private:
   struct Sent {
-    TexturedFramePtr frame;
-    Pose T_W_D;
+    ros::Time stamp;
     bool begins_map;
   };
 
   std::optional<FusionNews> newsOf(const MapViewMessage& message);
 
   ros::Publisher frames_;
-  std::optional<Sent> sent_;     // and not answered yet
-  uint32_t map_generation_ = 0;  // 0: of no map yet
+  std::optional<Sent> sent_;     // the frame that is not answered yet
+  uint32_t map_generation_ = 0;  // 0: there is no map yet
   bool begins_map_ = false;
   MapMode mode_ = MapMode::kMapping;
   MapReset reset_;

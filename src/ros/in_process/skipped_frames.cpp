@@ -2,19 +2,20 @@
 
 namespace depth_fusion {
 
-void SkippedFrames::add(const TexturedFrame& frame) {
+void SkippedFrames::add(const TexturedSensorFrame& frame) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  skipped_.push_back({frame.sensor->clock_jumps, frame.sensor->rgbd.stamp_s, frame.motion});
+  skipped_.push_back(
+      {frame.sensor->clock_jumps, frame.sensor->rgbd.stamp_s, frame.texture.measuredMotions()});
 }
 
-void SkippedFrames::replay(const SensorFrame& frame, FrameTracker& tracker) {
+void SkippedFrames::replay(const SensorFrame& frame, TrackingSession& session) {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<Skipped> later;
   for (const Skipped& skipped : skipped_) {
     if (skipped.clock_jumps > frame.clock_jumps || skipped.stamp_s > frame.rgbd.stamp_s) {
       later.push_back(skipped);
     } else if (skipped.clock_jumps == frame.clock_jumps) {
-      tracker.skip(skipped.stamp_s, skipped.motion);
+      session.skip(skipped.stamp_s, skipped.motions);
     }
   }
   skipped_.swap(later);

@@ -1,10 +1,10 @@
-// Frames that are not tracked, for want of time: their texture's motion counts all the same.
+// Frames that there was no time to track: what was measured of their motion counts all the same.
 #pragma once
 
 #include <mutex>
 #include <vector>
 
-#include "depth_fusion/pipeline/frame_tracker.h"
+#include "depth_fusion/pipeline/tracking_session.h"
 #include "ros/in_process/frames.h"
 
 namespace depth_fusion {
@@ -12,15 +12,15 @@ namespace depth_fusion {
 // Thread-safe.
 class SkippedFrames {
  public:
-  void add(const TexturedFrame& frame);
-  // Tells the tracker of those before the frame.
-  void replay(const SensorFrame& frame, FrameTracker& tracker);
+  void add(const TexturedSensorFrame& frame);
+  // Tells the session of the skipped frames that came before this one.
+  void replay(const SensorFrame& frame, TrackingSession& session);
 
  private:
   struct Skipped {
     uint32_t clock_jumps;
     double stamp_s;
-    TextureOdometryResult motion;
+    std::vector<FrameMotion> motions;
   };
 
   std::mutex mutex_;

@@ -13,13 +13,13 @@ namespace depth_fusion {
 template <class Item>
 class Worker {
  public:
-  // `work` is called in the thread, `drop` with what did not fit, in whatever thread.
+  // `work` is called in the thread; `drop` is called with the items that did not fit, in whatever thread.
   Worker(size_t capacity, std::function<void(const Item&)> work, std::function<void(const Item&)> drop)
       : capacity_(capacity), work_(std::move(work)), drop_(std::move(drop)), thread_([this] { run(); }) {}
 
   ~Worker() { stop(); }
 
-  // Waits for the item at work; those waiting are forgotten. May be called again.
+  // Waits for the item at work and forgets the items that wait. It may be called again.
   void stop() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -43,8 +43,8 @@ class Worker {
     changed_.notify_all();
   }
 
-  // For work that had to wait for something else: if meanwhile as many wait as can, the item at work is
-  // dropped for the next.
+  // Serves work that had to wait for something else: if meanwhile as many items wait as can, the item at work
+  // is dropped, and the next one returned in its place.
   Item nextIfFull(const Item& at_work) {
     Item next = at_work;
     {

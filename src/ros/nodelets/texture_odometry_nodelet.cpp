@@ -3,10 +3,11 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
+#include "depth_fusion/texture_odometry/texture_odometry.h"
 #include "ros/conversions/messages.h"
+#include "ros/in_process/worker.h"
 #include "ros/input/rgbd_subscriber.h"
 #include "ros/nodelets/stage_nodelet.h"
-#include "ros/in_process/worker.h"
 
 namespace depth_fusion {
 
@@ -24,7 +25,7 @@ class TextureOdometryNodelet : public StageNodelet {
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void process(const SensorFramePtr& sensor);
   void findMotion(const SensorFramePtr& sensor);
-  void publishOdometry(const TexturedFrame& frame);
+  void publishOdometry(const TexturedSensorFrame& frame);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
   TextureOdometryParameters parameters_;
@@ -89,33 +90,26 @@ void TextureOdometryNodelet::process(const SensorFramePtr& sensor) {
 }
 
 void TextureOdometryNodelet::findMotion(const SensorFramePtr& sensor) {
-  auto frame = std::make_shared<TexturedFrame>();
-  frame->sensor = sensor;
-  frame->parameters = odometry_parameters_;
   StageTimers timers;
   if (sensor->clock_jumps != std::exchange(clock_jumps_, sensor->clock_jumps)) odometry_->reset();
-  if (parameters_.enabled) {
-    const StageTimers::Scope timer(timers, "texture_odometry");
-    frame->motion = odometry_->process(sensor->rgbd);
-    frame->features = odometry_->previous();
-  } else {
-    frame->motion.reason = frame->features.reason = "texture_odometry/enabled is false";
-  }
+  const auto frame = std::make_shared<TexturedSensorFrame>(
+      TexturedSensorFrame{sensor, odometry_->texture(sensor->rgbd, timers), odometry_parameters_});
   recordTimings(timers);
   counter_.process();
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
-    no_motion_ = frame->motion.found ? "" : frame->motion.reason;
+    no_motion_ = frame->texture.motion.reason;
   }
   publishOdometry(*frame);
-  frame_publisher_.publish(makeMessage<TexturedFrame>(sensor->header, frame));
+  frame_publisher_.publish(makeMessage<TexturedSensorFrame>(sensor->header, frame));
 }
 
-void TextureOdometryNodelet::publishOdometry(const TexturedFrame& frame) {
-  if (!frame.motion.found) return;
+void TextureOdometryNodelet::publishOdometry(const TexturedSensorFrame& frame) {
+  const TextureOdometryResult& motion = frame.texture.motion;
+  if (!motion.found) return;
   const Matrix6d to_odom = adjoint(T_O_D_);
-  covariance_ += to_odom * frame.motion.covariance * to_odom.transpose();
-  T_O_D_ = orthonormalized(T_O_D_ * frame.motion.T_previous_current);
+  covariance_ += to_odom * motion.covariance * to_odom.transpose();
+  T_O_D_ = orthonormalized(T_O_D_ * motion.T_previous_current);
   if (odometry_publisher_.getNumSubscribers() == 0) return;
   auto odometry = boost::make_shared<nav_msgs::Odometry>();
   odometry->header = makeHeader(frame.sensor->header.stamp, odom_frame_);

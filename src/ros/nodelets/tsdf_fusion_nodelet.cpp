@@ -5,15 +5,16 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "depth_fusion/pipeline/posed_preprocessor.h"
+#include "depth_fusion/pipeline/motion_model.h"
 #include "depth_fusion/pipeline/warm_up.h"
+#include "depth_fusion/preprocessing/depth_preprocessor.h"
 #include "ros/conversions/messages.h"
-#include "ros/output/model_picture.h"
-#include "ros/input/posed_frame_subscriber.h"
-#include "ros/in_process/shared_map.h"
-#include "ros/nodelets/stage_nodelet.h"
 #include "ros/conversions/status_messages.h"
+#include "ros/in_process/shared_map.h"
 #include "ros/in_process/worker.h"
+#include "ros/input/posed_frame_subscriber.h"
+#include "ros/nodelets/stage_nodelet.h"
+#include "ros/output/model_picture.h"
 
 namespace depth_fusion {
 
@@ -66,7 +67,8 @@ class TsdfFusionNodelet : public StageNodelet {
   MapReset reset_;
   MapMode mode_ = MapMode::kMapping;
   CameraIntrinsics camera_;
-  std::unique_ptr<PosedPreprocessor> preprocessor_;  // of frames with poses from elsewhere
+  MotionModel motion_;                               // of frames with poses from elsewhere
+  std::unique_ptr<DepthPreprocessor> preprocessor_;  // the same
   std::shared_ptr<const ModelView> view_;            // of the last accepted frame
   uint32_t clock_jumps_ = 0;
   std::unique_ptr<ModelPicture> picture_;
@@ -154,7 +156,8 @@ void TsdfFusionNodelet::applyParameters() {
   if (map_ == nullptr) return;
   const std::lock_guard<std::mutex> lock(map_->mutex);
   map_->setParameters(parameters_);
-  if (preprocessor_ != nullptr) preprocessor_->setParameters(parameters_);
+  if (preprocessor_ != nullptr)
+    preprocessor_->setParameters(parameters_.preprocessing, parameters_.depth_sensor);
 }
 
 void TsdfFusionNodelet::subscribe() {
@@ -195,6 +198,7 @@ void TsdfFusionNodelet::prepare(const CameraIntrinsics& camera) {
   if (sameCamera(camera, camera_)) return;
   camera_ = camera;
   view_.reset();
+  motion_ = MotionModel();
   preprocessor_.reset();
 }
 
@@ -227,8 +231,10 @@ TsdfFusionNodelet::Outcome TsdfFusionNodelet::fuse(const TrackedFrame& frame, St
   const RgbdFrame& rgbd = frame.sensor->rgbd;
   const Pose& T_W_D = frame.tracking.T_W_D;
   if (frame.depth == nullptr && preprocessor_ == nullptr)
-    preprocessor_ = std::make_unique<PosedPreprocessor>(*map_->compute, parameters_, camera_);
-  const DepthFrame& depth = frame.depth ? *frame.depth : preprocessor_->process(rgbd, T_W_D, timers);
+    preprocessor_ = std::make_unique<DepthPreprocessor>(*map_->compute, parameters_.preprocessing, camera_,
+                                                        parameters_.depth_sensor);
+  const DepthFrame& depth =
+      frame.depth ? *frame.depth : preprocessor_->process(rgbd, motion_.moveTo(rgbd.stamp_s, T_W_D), timers);
   Mapper& mapper = map_->mapper(camera_);
   const MappingResult result = mapper.fuse(rgbd, depth, T_W_D, timers);
   if (map_->isFollowed()) map_->noteUpdated(mapper.updatedBlocks(result));

@@ -57,7 +57,7 @@ CameraTree::Root CameraTree::rootOf(const std::string& camera_frame) const {
 }
 
 CameraTree::Root CameraTree::settledRootOf(const std::string& camera_frame) const {
-  // By the wall's clock: a simulated one may stand still.
+  // The wall's clock counts: a simulated one may stand still.
   const ros::WallTime begin = ros::WallTime::now();
   Root root = rootOf(camera_frame);
   for (ros::WallTime now = begin; othersPublish() && (now - begin).toSec() < kMaxSettling_s;

@@ -25,12 +25,13 @@ class CameraTree {
 
     bool operator==(const Root& other) const { return frame == other.frame && in_map == other.in_map; }
   };
-  // The top of what is known of the tree now, below map_frame.
+  // Returns the top of what is known of the tree now, below map_frame.
   Root rootOf(const std::string& camera_frame) const;
-  // The same once the tree has stopped growing: where somebody publishes on tf, waits until no frame was new
-  // for a second, and a camera that stands alone as long for company; three seconds at most.
+  // The same once the tree has stopped growing. Where somebody publishes on tf, it waits until no frame was
+  // new for a second; a camera that stands alone waits as long for company. It waits three seconds at most.
   Root settledRootOf(const std::string& camera_frame) const;
-  // T_frame_camera at the image's stamp; waits a little for it. Throws Error if they are not connected.
+  // Returns T_frame_camera at the image's stamp, and waits a little for it. Throws Error if the two are not
+  // connected.
   Pose cameraIn(const std::string& frame, const std_msgs::Header& camera) const;
 
  private:

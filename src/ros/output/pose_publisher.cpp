@@ -2,6 +2,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "depth_fusion/common/error.h"
 #include "ros/conversions/messages.h"
 
 namespace depth_fusion {
@@ -12,7 +13,7 @@ constexpr double kPathStep_m = 0.02;
 constexpr double kPathStep_rad = 0.05;
 constexpr size_t kMaxPath = 5000;
 
-// From the optical frame (z forward, y down) to x forward, z up.
+// The optical frame (z forward, y down) of a camera that looks along x with z up.
 Pose levelCamera() {
   Pose T_map_camera = Pose::Identity();
   T_map_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
@@ -88,6 +89,14 @@ void PosePublisher::publish(const std_msgs::Header& camera, const Pose& T_map_ca
   pose->pose = toMessage(T_map_camera, covariance);
   pose_publisher_.publish(pose);
   addToPath(header, T_map_camera);
+  try {
+    publishTransform(camera, T_map_camera);
+  } catch (const Error& error) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "icp_tracking: no transform sent: " << error.what());
+  }
+}
+
+void PosePublisher::publishTransform(const std_msgs::Header& camera, const Pose& T_map_camera) {
   findRoot(camera.frame_id);
   if (!parameters_.publish_tf || root_.in_map) return;
   T_map_root_ = T_map_camera * tree_.cameraIn(root_.frame, camera).inverse();

@@ -33,20 +33,23 @@ class PosePublisher {
  public:
   PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_handle, const PoseParameters& parameters);
 
-  // T_map_camera for the first frame: the root then stands at the map's origin; a camera without a tree looks
-  // along x with z up (REP 103), or is the origin itself without level_start.
+  // Returns T_map_camera for the first frame, with which the root stands at the map's origin. A camera
+  // without a tree looks along x with z up (REP 103), or is the origin itself without level_start.
   Pose startPose(const std_msgs::Header& camera);
-  // Throws Error if odom_frame or base_frame is not connected to the camera.
+  // Publishes the pose; no transform is sent, and the log says so, if odom_frame or base_frame is not
+  // connected to the camera.
   void publish(const std_msgs::Header& camera, const Pose& T_map_camera, const Matrix6d& covariance);
-  // The pose is not known: the robot's odometry carries on from the last one.
+  // Says that the pose is not known; the robot's odometry carries on from the last one.
   void publishLost(const std_msgs::Header& camera);
-  // Before a new map.
+  // Forgets the path and the last pose, which belong to another map.
   void reset();
 
  private:
   void findRoot(const std::string& camera_frame);
   void followRoot(const std::string& camera_frame);
   void takeRoot(const CameraTree::Root& root);
+  // Throws Error if the root is not connected to the camera.
+  void publishTransform(const std_msgs::Header& camera, const Pose& T_map_camera);
   void send(const ros::Time& stamp);
   void addToPath(const std_msgs::Header& header, const Pose& T_map_camera);
   void publishPath();

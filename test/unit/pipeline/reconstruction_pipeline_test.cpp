@@ -7,9 +7,10 @@
 #include "depth_fusion/pipeline/warm_up.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
-#include "tools/simulation/simulated_recording.h"
+#include "support/expect_error.h"
 #include "support/map_contents.h"
 #include "support/test_compute.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {
@@ -194,6 +195,74 @@ TEST(ReconstructionPipeline, TheSameFramesGiveTheSameBits) {
   }
   EXPECT_TRUE(readMap(a.map()) == readMap(b.map()));
   EXPECT_TRUE(sameBytes(meshOf(a), meshOf(b)));
+}
+
+// The room, with a frame in between that is lost.
+std::vector<RgbdFrame> framesWithALoss() {
+  std::vector<RgbdFrame> frames = roomFrames();
+  frames[6].depth = frameWithoutDepth().depth;
+  return frames;
+}
+
+// A near and a far wall, between which the window of a map of 2.5 m finds nothing.
+RgbdFrame frameOutsideOfTheWindow() {
+  RgbdFrame frame = roomFrames()[0];
+  frame.stamp_s = -1.0 / 30.0;
+  frame.depth = cv::Mat(frame.depth.size(), frame.depth.type());
+  frame.depth.colRange(0, kCamera.width / 2) = 0.5 / frame.depth_unit_m;
+  frame.depth.colRange(kCamera.width / 2, kCamera.width) = 4.5 / frame.depth_unit_m;
+  return frame;
+}
+
+// Each frame's results and the maps are the same whether the next frame is announced or not.
+void expectSameOverlapped(const PipelineParameters& parameters, const std::vector<RgbdFrame>& frames) {
+  ReconstructionPipeline sequential(compute(), parameters, kCamera);
+  ReconstructionPipeline overlapped(compute(), parameters, kCamera);
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const FrameResult a = sequential.processFrame(frames[i]);
+    const FrameResult b =
+        overlapped.processFrame(frames[i], i + 1 < frames.size() ? &frames[i + 1] : nullptr);
+    ASSERT_EQ(a.tracking.status, b.tracking.status) << i;
+    ASSERT_EQ(a.tracking.reason, b.tracking.reason) << i;
+    ASSERT_EQ(a.tracking.prior, b.tracking.prior) << i;
+    ASSERT_TRUE(a.tracking.T_W_D.matrix() == b.tracking.T_W_D.matrix()) << i;
+    ASSERT_EQ(a.fusion.blocks_updated, b.fusion.blocks_updated) << i;
+    ASSERT_EQ(sequential.keyframeCount(), overlapped.keyframeCount()) << i;
+  }
+  EXPECT_GT(sequential.map().usage().blocks, 0u);
+  EXPECT_TRUE(readMap(sequential.map()) == readMap(overlapped.map()));
+}
+
+TEST(ReconstructionPipeline, OverlappedFramesGiveTheSameBits) {
+  PipelineParameters parameters = pipelineParameters();
+  parameters.preprocessing.readout_s = 0.03f;
+  expectSameOverlapped(parameters, framesWithALoss());
+  parameters.texture_odometry.enabled = false;
+  expectSameOverlapped(parameters, framesWithALoss());
+}
+
+TEST(ReconstructionPipeline, OverlappedFramesGiveTheSameBitsAfterOneThatIsNotFused) {
+  PipelineParameters parameters = pipelineParameters();
+  parameters.map.blocks_per_axis = 16;
+  parameters.preprocessing.readout_s = 0.03f;
+  std::vector<RgbdFrame> frames = roomFrames();
+  frames.insert(frames.begin(), frameOutsideOfTheWindow());
+  ReconstructionPipeline pipeline(compute(), parameters, kCamera);
+  expectLost(pipeline.processFrame(frames.front()), "window");
+  EXPECT_EQ(pipeline.keyframeCount(), 0u);
+  expectSameOverlapped(parameters, frames);
+}
+
+TEST(ReconstructionPipeline, OnlyTheAnnouncedFrameMayComeNext) {
+  const std::vector<RgbdFrame>& frames = roomFrames();
+  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  pipeline.processFrame(frames[0], &frames[1]);
+  expectError([&] { pipeline.processFrame(frames[2]); }, {"was announced", "came"});
+  expectError([&] { pipeline.processFrame(frames[1], *frames[1].T_W_D); }, {"was announced", "pose"});
+  const FrameResult announced = pipeline.processFrame(frames[1]);
+  ASSERT_TRUE(isTracking(announced)) << announced.tracking.reason;
+  EXPECT_LT((motionTo(1).inverse() * announced.tracking.T_W_D).translation().norm(), 0.015);
+  EXPECT_TRUE(isTracking(pipeline.processFrame(frames[2], *frames[2].T_W_D)));
 }
 
 TEST(ReconstructionPipeline, FusesWithGivenPoses) {

@@ -1,0 +1,38 @@
+// How the sensor moves from frame to frame: where the next frame is expected, and how fast the sensor is.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "depth_fusion/frames/motion_prior.h"
+#include "depth_fusion/geometry/pose.h"
+
+namespace depth_fusion {
+
+// The state is a value: a copy remembers it.
+class MotionModel {
+ public:
+  // Goes on to the frame at stamp_s and returns its prior: by the first of the motions measured since the
+  // frame before, or the last pose if nothing was measured.
+  MotionPrior predict(double stamp_s, const std::vector<FrameMotion>& measured);
+  // The frame at stamp_s is known to be at T_W_D. Returns the velocity from the frame before to there.
+  const Vector6d& moveTo(double stamp_s, const Pose& T_W_D);
+  // The pose of the frame is not known; the sensor is expected where the frame's prior was.
+  void lose() { tracked_.reset(); }
+  // The pose of the frame is not known; the sensor is expected at T_W_D.
+  void loseAt(const Pose& T_W_D);
+
+  // Whether the pose of the frame before is known.
+  bool isTracking() const { return tracked_.has_value(); }
+  // The sensor's velocity in its own frame D: rotation (rad/s), translation (m/s). Zero where nothing says
+  // how fast the sensor is.
+  const Vector6d& velocity() const { return velocity_; }
+
+ private:
+  std::optional<StampedPose> tracked_;    // the frame before; none if that is lost
+  Pose T_W_expected_ = Pose::Identity();  // the last known pose, moved on by the motions measured since
+  double stamp_s_ = 0.0;                  // of the frame predicted last
+  Vector6d velocity_ = Vector6d::Zero();
+};
+
+}  // namespace depth_fusion

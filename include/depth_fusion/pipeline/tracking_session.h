@@ -1,0 +1,94 @@
+// The one conductor of tracking, offline and live: prediction, preprocessing, ICP tracking, relocalisation,
+// keyframes.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "depth_fusion/frames/textured_frame.h"
+#include "depth_fusion/icp_tracking/icp_tracker.h"
+#include "depth_fusion/pipeline/motion_model.h"
+#include "depth_fusion/pipeline/pipeline_parameters.h"
+#include "depth_fusion/preprocessing/depth_preprocessor.h"
+#include "depth_fusion/relocalisation/relocaliser.h"
+#include "depth_fusion/texture_odometry/texture_odometry.h"
+
+namespace depth_fusion {
+
+// A frame with a pose from step() is fused, and conclude() says what became of it before the next step().
+class TrackingSession {
+ public:
+  // The map as seen from T_W_D; valid until the next call.
+  using RenderView = std::function<const ModelView&(const Pose& T_W_D)>;
+
+  TrackingSession(ComputeContext& compute, const PipelineParameters& parameters,
+                  const CameraIntrinsics& camera, RenderView render);
+
+  // The parameters hold for the frames to come. Throws Error if they do not fit together.
+  void setParameters(const PipelineParameters& parameters);
+
+  // Finds the frame's pose by its depth against `view`, the model view of the last fused frame. `texture` is
+  // the frame's own. A null view means that the map is empty: the frame then begins it at `start`. If the
+  // frame does not fit the view, keyframes and the last pose say where else the sensor may be. Throws Error
+  // if the frame does not fit the camera, or if the frame before is not concluded.
+  TrackingResult step(const RgbdFrame& frame, TexturedFrame texture, const ModelView* view,
+                      StageTimers& timers, const Pose& start = Pose::Identity());
+  // Does the part of the next step() that needs neither view nor map, beside whatever else is done with this
+  // step's pose; that pose is taken for good until conclude() says otherwise.
+  void prepareAhead(const RgbdFrame& frame, const TexturedFrame& texture, StageTimers& timers);
+  // Says whether the frame of the last step is fused. If it is, it may become a keyframe. If it is not, all
+  // is as if its pose had never been found, and the next frame is searched for.
+  void conclude(bool fused);
+
+  // Preprocesses a frame whose pose is known from elsewhere; the next one is predicted from there.
+  void follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers);
+  // Passes over a frame that there was no time to track: what was measured of its motion counts.
+  void skip(double stamp_s, const std::vector<FrameMotion>& measured);
+  // Gives up the frame before: the next frame is searched for.
+  void lose() { conclude(false); }
+  // Forgets everything; the sensor is then searched for at T_W_D.
+  void reset(const Pose& T_W_D = Pose::Identity());
+
+  // The frame of the last step() or follow(), preprocessed.
+  std::shared_ptr<const DepthFrame> depth() const { return depth_; }
+  size_t keyframeCount() const { return relocaliser_.keyframes().size(); }
+
+ private:
+  // A frame that is ready to be tracked.
+  struct PreparedFrame {
+    double stamp_s;
+    MotionPrior prior;
+    std::shared_ptr<const DepthFrame> depth;
+  };
+  // A frame with a pose that is not concluded.
+  struct FoundFrame {
+    FrameFeatures features;
+    Pose T_W_D;
+    MotionModel unless_fused;
+  };
+
+  MotionPrior takePrepared(const RgbdFrame& frame);
+  // A tracked frame at the prior, if its depth suffices for the next one to be tracked against.
+  TrackingResult begin(const RgbdFrame& frame, const MotionPrior& prior) const;
+  TrackingResult track(const MotionPrior& prior, const FrameFeatures& features, const ModelView& view,
+                       StageTimers& timers);
+  // Tracks against the map as it is seen from where a keyframe, or after a loss the prior, says that the
+  // sensor is. Returns `lost` if nothing fits.
+  TrackingResult relocalise(const MotionPrior& prior, const FrameFeatures& features,
+                            const TrackingResult& lost, StageTimers& timers);
+  TrackingResult trackFrom(const MotionPrior& prior, StageTimers& timers);
+
+  PipelineParameters parameters_;
+  RenderView render_;
+  DepthPreprocessor preprocessor_;
+  IcpTracker tracker_;
+  Relocaliser relocaliser_;
+  TextureOdometry matcher_;  // of frames to keyframes
+  MotionModel motion_;
+  std::shared_ptr<const DepthFrame> depth_;
+  std::optional<FoundFrame> found_;
+  std::optional<PreparedFrame> ahead_;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,133 @@
+#include "depth_fusion/pipeline/tracking_session.h"
+
+#include <cmath>
+#include <utility>
+
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/preprocessing/depth_range.h"
+
+namespace depth_fusion {
+
+TrackingSession::TrackingSession(ComputeContext& compute, const PipelineParameters& parameters,
+                                 const CameraIntrinsics& camera, RenderView render)
+    : parameters_(parameters),
+      render_(std::move(render)),
+      preprocessor_(compute, parameters.preprocessing, camera, parameters.depth_sensor),
+      tracker_(compute, parameters.icp_tracking, camera),
+      relocaliser_(parameters.relocalisation),
+      matcher_(parameters.texture_odometry, parameters.depth_sensor) {}
+
+void TrackingSession::setParameters(const PipelineParameters& parameters) {
+  preprocessor_.setParameters(parameters.preprocessing, parameters.depth_sensor);
+  tracker_.setParameters(parameters.icp_tracking);
+  relocaliser_.setParameters(parameters.relocalisation);
+  matcher_.setParameters(parameters.texture_odometry, parameters.depth_sensor);
+  parameters_ = parameters;
+}
+
+TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame texture, const ModelView* view,
+                                     StageTimers& timers, const Pose& start) {
+  check(!found_, "TrackingSession: the frame before is not concluded");
+  if (!ahead_) prepareAhead(frame, texture, timers);
+  const MotionPrior predicted = takePrepared(frame);
+  const MotionPrior prior = view == nullptr ? MotionPrior{start, std::nullopt, "start"} : predicted;
+  TrackingResult result =
+      view == nullptr ? begin(frame, prior) : track(prior, texture.features, *view, timers);
+  result.prior = prior.origin;
+  if (result.status == TrackingStatus::kLost) {
+    motion_.lose();
+  } else {
+    found_ = {std::move(texture.features), result.T_W_D, motion_};
+    motion_.moveTo(frame.stamp_s, result.T_W_D);
+  }
+  return result;
+}
+
+void TrackingSession::prepareAhead(const RgbdFrame& frame, const TexturedFrame& texture,
+                                   StageTimers& timers) {
+  const MotionPrior prior = motion_.predict(frame.stamp_s, texture.measuredMotions());
+  preprocessor_.process(frame, motion_.velocity(), timers);
+  ahead_ = {frame.stamp_s, prior, preprocessor_.result()};
+}
+
+MotionPrior TrackingSession::takePrepared(const RgbdFrame& frame) {
+  check(ahead_->stamp_s == frame.stamp_s, "TrackingSession: the frame is not the one prepared ahead");
+  depth_ = std::move(ahead_->depth);
+  const MotionPrior prior = ahead_->prior;
+  ahead_.reset();
+  return prior;
+}
+
+void TrackingSession::conclude(bool fused) {
+  if (fused) {
+    check(found_.has_value(), "TrackingSession: no frame is to be concluded");
+    relocaliser_.add(found_->features, found_->T_W_D);
+  } else {
+    if (found_) {
+      motion_ = found_->unless_fused;
+      ahead_.reset();
+    }
+    motion_.lose();
+  }
+  found_.reset();
+}
+
+void TrackingSession::follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers) {
+  preprocessor_.process(frame, motion_.moveTo(frame.stamp_s, T_W_D), timers);
+  depth_ = preprocessor_.result();
+}
+
+void TrackingSession::skip(double stamp_s, const std::vector<FrameMotion>& measured) {
+  motion_.predict(stamp_s, measured);
+}
+
+void TrackingSession::reset(const Pose& T_W_D) {
+  lose();
+  motion_.loseAt(T_W_D);
+  relocaliser_.reset();
+}
+
+TrackingResult TrackingSession::begin(const RgbdFrame& frame, const MotionPrior& prior) const {
+  const int points = cv::countNonZero(depthInRange(frame, parameters_.depthRange()));
+  TrackingResult first;
+  if (points < parameters_.icp_tracking.min_inliers) {
+    first.reason = "only " + std::to_string(points) + " points with depth in range to begin with";
+  } else {
+    first.status = TrackingStatus::kTracking;
+    first.T_W_D = prior.T_W_D;
+  }
+  return first;
+}
+
+TrackingResult TrackingSession::track(const MotionPrior& prior, const FrameFeatures& features,
+                                      const ModelView& view, StageTimers& timers) {
+  TrackingResult result;
+  if (motion_.isTracking()) result = tracker_.track(*depth_, view, prior, timers);
+  return result.status == TrackingStatus::kLost ? relocalise(prior, features, result, timers) : result;
+}
+
+TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const FrameFeatures& features,
+                                           const TrackingResult& lost, StageTimers& timers) {
+  const StageTimers::Scope timer(timers, "relocalisation");
+  for (const Keyframe* keyframe : relocaliser_.candidates(features)) {
+    const TextureOdometryResult motion = matcher_.match(keyframe->features, features, true);
+    if (!motion.found) continue;
+    const TrackingResult result = trackFrom(motion.priorFrom(keyframe->T_W_D), timers);
+    if (result.status != TrackingStatus::kLost) return result;
+  }
+  return motion_.isTracking() ? lost : trackFrom(prior, timers);
+}
+
+TrackingResult TrackingSession::trackFrom(const MotionPrior& prior, StageTimers& timers) {
+  TrackingResult result = tracker_.track(*depth_, render_(prior.T_W_D), prior, timers);
+  if (result.status == TrackingStatus::kLost ||
+      result.inlier_fraction >= parameters_.relocalisation.min_inlier_fraction) {
+    return result;
+  }
+  result.status = TrackingStatus::kLost;
+  result.reason = "still lost: only " + std::to_string(std::lround(100.0 * result.inlier_fraction)) +
+                  " % of the points fit the map";
+  return result;
+}
+
+}  // namespace depth_fusion

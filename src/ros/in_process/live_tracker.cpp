@@ -1,0 +1,151 @@
+#include "ros/in_process/live_tracker.h"
+
+#include <ros/console.h>
+
+#include <utility>
+
+#include "depth_fusion/common/error.h"
+#include "ros/conversions/status_messages.h"
+#include "ros/in_process/shared_map.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr char kPaused[] = "paused";
+
+}  // namespace
+
+Parameter LiveTrackerParameters::useTextureRow() {
+  constexpr char kHelp[] =
+      "true: frames come from texture_odometry; false: from the topics, with the last pose as the prior";
+  return {"texture_odometry", &use_texture, 0, 1, kHelp, {}, true};
+}
+
+Parameter LiveTrackerParameters::onClockJumpRow() {
+  constexpr char kHelp[] =
+      "what a clock that goes back does to the map: begin anew, or keep it and find the sensor in it";
+  return {"on_clock_jump", &on_clock_jump, 0, 0, kHelp, {"reset", "keep"}};
+}
+
+PipelineParameters LiveTracker::pipelineParameters() const {
+  PipelineParameters parameters = parameters_.pipeline;
+  if (texture_ != nullptr) parameters.texture_odometry = *texture_;
+  return parameters;
+}
+
+void LiveTracker::applyParameters() {
+  if (session_ != nullptr) session_->setParameters(pipelineParameters());
+}
+
+void LiveTracker::concludeBefore(const TexturedSensorFrame& next) {
+  if (session_ == nullptr) readySession(next);
+  for (const FusionNews& news : fusion_.await()) apply(news);
+}
+
+LiveResult LiveTracker::track(const TexturedSensorFrame& frame, StageTimers& timers) {
+  readySession(frame);
+  catchUp(*frame.sensor);
+  LiveResult result;
+  result.tracking.reason = refusal(*frame.sensor);
+  if (result.tracking.reason.empty()) {
+    const Pose start = view() == nullptr ? robot_.start_pose(frame.sensor->header) : Pose::Identity();
+    result.tracking = session_->step(frame.sensor->rgbd, frame.texture, view(), timers, start);
+    rendered_.reset();
+  } else {
+    result.lost_for = result.tracking.reason;
+    session_->lose();
+  }
+  return result;
+}
+
+LiveResult LiveTracker::fail(const std::string& error) {
+  LiveResult result;
+  result.tracking.reason = error;
+  result.lost_for = "error";
+  if (session_ != nullptr) session_->lose();
+  return result;
+}
+
+void LiveTracker::send(const SensorFramePtr& frame, const TrackingResult& tracking) {
+  fusion_.send(frame, session_->depth(), tracking);
+}
+
+TrackerStatus LiveTracker::statusOf(const SensorFrame& frame, const LiveResult& result) const {
+  TrackerStatus status = makeTrackerStatus(frame.header, result.tracking);
+  if (result.lost_for == kPaused) status.state = TrackerStatus::PAUSED;
+  status.keyframes = session_ == nullptr ? 0 : static_cast<uint32_t>(session_->keyframeCount());
+  return status;
+}
+
+void LiveTracker::readySession(const TexturedSensorFrame& frame) {
+  if (frame.parameters != nullptr && frame.parameters != texture_) {
+    texture_ = frame.parameters;
+    applyParameters();
+  }
+  const CameraIntrinsics& camera = frame.sensor->rgbd.intrinsics;
+  if (session_ == nullptr || !sameCamera(camera, camera_)) makeSession(camera);
+}
+
+void LiveTracker::makeSession(const CameraIntrinsics& camera) {
+  if (session_ != nullptr)
+    ROS_WARN("the camera's intrinsics have changed; the sensor is searched for in the map");
+  compute_ = sharedCompute(parameters_.device);
+  ROS_INFO_STREAM("OpenCL device: " << compute_->selfTestReport());
+  session_ = std::make_unique<TrackingSession>(
+      *compute_, pipelineParameters(), camera,
+      [this](const Pose& T_W_D) -> const ModelView& { return render(T_W_D); });
+  camera_ = camera;
+  session_->reset(viewPose());
+}
+
+void LiveTracker::apply(const FusionNews& news) {
+  switch (news.kind) {
+    case FusionNews::kAccepted:
+      map_ = news.view;
+      return session_->conclude(true);
+    case FusionNews::kUnanswered:
+      ROS_ERROR("no answer from tsdf_fusion to the last frame, which counts as lost");
+      return session_->conclude(false);
+    case FusionNews::kRejected:
+      return session_->conclude(false);
+    case FusionNews::kOtherMap:
+      return changeMap(news.view);
+  }
+}
+
+void LiveTracker::catchUp(const SensorFrame& frame) {
+  if (frame.clock_jumps != std::exchange(clock_jumps_, frame.clock_jumps)) {
+    session_->lose();
+    if (parameters_.on_clock_jump == "reset" && fusion_.mode() == MapMode::kMapping) {
+      changeMap(nullptr);
+      fusion_.beginMap();
+    }
+  }
+  if (map_ != nullptr && map_->map.expired()) changeMap(nullptr);  // tsdf_fusion was unloaded
+  skipped_.replay(frame, *session_);
+}
+
+std::string LiveTracker::refusal(const SensorFrame& frame) const {
+  if (!fusion_.connected()) return "no map to track against; load tsdf_fusion in the same nodelet manager";
+  if (fusion_.mode() == MapMode::kPaused) return kPaused;
+  return fusion_.isBeforeReset(frame) ? kBeforeReset : "";
+}
+
+void LiveTracker::changeMap(const std::shared_ptr<const MapView>& map) {
+  map_ = map;
+  session_->reset(viewPose());
+  robot_.forget_poses();
+}
+
+const ModelView& LiveTracker::render(const Pose& T_W_D) {
+  const std::shared_ptr<SharedMap> map = map_->map.lock();
+  check(map != nullptr, "the map is gone; load tsdf_fusion again");
+  StageTimers timers;
+  const std::lock_guard<std::mutex> lock(map->mutex);
+  Mapper& mapper = map->mapper(camera_);
+  mapper.render(T_W_D, timers);
+  rendered_ = mapper.renderer().view();
+  return *rendered_;
+}
+
+}  // namespace depth_fusion

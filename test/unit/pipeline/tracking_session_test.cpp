@@ -1,0 +1,154 @@
+// The conductor of tracking alone: the test says which frames are fused.
+#include "depth_fusion/pipeline/tracking_session.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "depth_fusion/pipeline/mapper.h"
+#include "support/expect_error.h"
+#include "support/test_compute.h"
+#include "tools/simulation/simulated_recording.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr CameraIntrinsics kCamera{320, 240, 262.5, 262.5, 159.5, 119.5};
+constexpr int kFrames = 8;
+constexpr int kNotFused = 4;
+
+// Every fused frame is a keyframe, and the sensor's velocity changes the depth.
+PipelineParameters sessionParameters() {
+  PipelineParameters parameters;
+  parameters.map.voxel_size_m = 0.02f;
+  parameters.map.truncation_m = 0.08f;
+  parameters.map.blocks_per_axis = 64;
+  parameters.map.pool_mib = 32;
+  parameters.relocalisation.keyframe_distance_m = 0.001f;
+  parameters.relocalisation.keyframe_angle_rad = 0.001f;
+  parameters.preprocessing.readout_s = 0.03f;
+  return parameters;
+}
+
+const std::vector<RgbdFrame>& roomFrames() {
+  static const std::vector<RgbdFrame> frames = [] {
+    SimulationOptions options;
+    options.frames = kFrames;
+    options.intrinsics = kCamera;
+    SimulatedRecording recording(options);
+    std::vector<RgbdFrame> all;
+    while (std::optional<RgbdFrame> frame = recording.next()) all.push_back(std::move(*frame));
+    return all;
+  }();
+  return frames;
+}
+
+// A session with the map that its frames are fused into.
+class FusedRoom {
+ public:
+  explicit FusedRoom(bool with_texture)
+      : with_texture_(with_texture),
+        parameters_(sessionParameters()),
+        map_(compute(), parameters_.map),
+        mapper_(compute(), map_, parameters_, kCamera),
+        session_(compute(), parameters_, kCamera,
+                 [this](const Pose& T_W_D) -> const ModelView& { return mapper_.render(T_W_D, timers_); }) {
+    TextureOdometry odometry(parameters_.texture_odometry, parameters_.depth_sensor);
+    for (const RgbdFrame& frame : roomFrames())
+      textures_.push_back(with_texture ? odometry.texture(frame, timers_) : withoutTexture("switched off"));
+  }
+
+  TrackingResult step(int i, const Pose& start = Pose::Identity()) {
+    return session_.step(roomFrames()[i], textures_[i], view_, timers_, start);
+  }
+  void prepareAhead(int i) { session_.prepareAhead(roomFrames()[i], textures_[i], timers_); }
+  void fuse(int i, const Pose& T_W_D) {
+    ASSERT_TRUE(mapper_.fuse(roomFrames()[i], *session_.depth(), T_W_D, timers_).fusion.fused());
+    view_ = &mapper_.render(T_W_D, timers_);
+  }
+  // Tracks all frames and fuses all but one.
+  std::vector<TrackingResult> trackAll(bool overlapped) {
+    std::vector<TrackingResult> results;
+    for (int i = 0; i < kFrames; ++i) {
+      results.push_back(step(i));
+      EXPECT_EQ(results.back().status, TrackingStatus::kTracking) << i << " " << results.back().reason;
+      if (overlapped && i + 1 < kFrames) prepareAhead(i + 1);
+      if (i != kNotFused) fuse(i, results.back().T_W_D);
+      const size_t keyframes = session_.keyframeCount();
+      session_.conclude(i != kNotFused);
+      const bool becomes_keyframe = with_texture_ && i != kNotFused;
+      EXPECT_EQ(session_.keyframeCount(), keyframes + (becomes_keyframe ? 1 : 0)) << i;
+    }
+    return results;
+  }
+
+  TrackingSession& session() { return session_; }
+  // What the map shows; null: nothing.
+  const ModelView*& view() { return view_; }
+
+ private:
+  const bool with_texture_;
+  PipelineParameters parameters_;
+  StageTimers timers_;
+  BlockSparseMap map_;
+  Mapper mapper_;
+  TrackingSession session_;
+  std::vector<TexturedFrame> textures_;
+  const ModelView* view_ = nullptr;
+};
+
+class TrackingSessionTest : public testing::TestWithParam<bool> {
+ protected:
+  FusedRoom room_{GetParam()};
+};
+
+TEST_P(TrackingSessionTest, AFrameThatIsNotFusedIsForgottenAlsoWhereTheNextWasPreparedAhead) {
+  const std::vector<TrackingResult> sequential = room_.trackAll(false);
+  const std::vector<TrackingResult> overlapped = FusedRoom(GetParam()).trackAll(true);
+  for (int i = 0; i < kFrames; ++i) {
+    EXPECT_TRUE(sequential[i].T_W_D.matrix() == overlapped[i].T_W_D.matrix()) << i;
+    EXPECT_TRUE(sequential[i].covariance == overlapped[i].covariance) << i;
+    EXPECT_EQ(sequential[i].prior, overlapped[i].prior) << i;
+    EXPECT_EQ(sequential[i].prior, i == 0 ? "start" : GetParam() ? "texture" : "last pose");
+  }
+}
+
+// The pose is a metre off, so that the next frame is found only if it is not predicted from there.
+TEST_P(TrackingSessionTest, TheNextFrameIsPredictedAsIfTheOneNotFusedHadNoPose) {
+  for (int i = 0; i < 2; ++i) {
+    room_.fuse(i, room_.step(i).T_W_D);
+    room_.session().conclude(true);
+  }
+  const ModelView* before = std::exchange(room_.view(), nullptr);
+  Pose T_W_off = Pose::Identity();
+  T_W_off.translation().x() = 1.0;
+  room_.step(2, T_W_off);
+  room_.prepareAhead(3);
+  room_.session().conclude(false);
+  room_.view() = before;
+  const TrackingResult next = room_.step(3);
+  ASSERT_EQ(next.status, TrackingStatus::kTracking) << next.reason;
+  const Pose truth = roomFrames()[0].T_W_D->inverse() * *roomFrames()[3].T_W_D;
+  EXPECT_LT((truth.inverse() * next.T_W_D).translation().norm(), 0.015);
+}
+
+TEST_P(TrackingSessionTest, EveryFrameWithAPoseIsToBeConcluded) {
+  room_.step(0);
+  expectError([&] { room_.step(1); }, {"not concluded"});
+  room_.session().conclude(false);
+  expectError([&] { room_.session().conclude(true); }, {"no frame is to be concluded"});
+  EXPECT_EQ(room_.step(1).status, TrackingStatus::kTracking);
+}
+
+TEST_P(TrackingSessionTest, AnotherFrameThanTheOnePreparedIsAnError) {
+  room_.fuse(0, room_.step(0).T_W_D);
+  room_.prepareAhead(1);
+  room_.session().conclude(true);
+  expectError([&] { room_.step(2); }, {"not the one prepared ahead"});
+  EXPECT_EQ(room_.step(1).status, TrackingStatus::kTracking);
+}
+
+INSTANTIATE_TEST_SUITE_P(WithAndWithoutTexture, TrackingSessionTest, testing::Bool());
+
+}  // namespace
+}  // namespace depth_fusion
