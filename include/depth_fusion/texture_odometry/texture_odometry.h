@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "depth_fusion/frames/frame_features.h"
 #include "depth_fusion/frames/motion_prior.h"
 #include "depth_fusion/frames/rgbd_frame.h"
-#include "depth_fusion/frames/frame_features.h"
 #include "depth_fusion/frames/texture_motion.h"
 #include "depth_fusion/texture_odometry/texture_odometry_parameters.h"
 
@@ -17,7 +17,7 @@ class TextureOdometry {
   explicit TextureOdometry(const TextureOdometryParameters& parameters,
                            const DepthSensorParameters& sensor = {});
 
-  // For the frames to come.
+  // The frames to come are matched by these.
   void setParameters(const TextureOdometryParameters& parameters, const DepthSensorParameters& sensor);
 
   // The motion against the frame of the last call.

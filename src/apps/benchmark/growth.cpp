@@ -69,7 +69,7 @@ GrowthSample visit(GrowthWalk& walk, const Eigen::Vector3d& room_W, const Camera
   return sample;
 }
 
-// Where the first room has just been mapped (again).
+// Afterwards the first room has just been mapped, anew or again.
 void enterAndMap(GrowthWalk& walk) {
   walk.enter(rooms().front());
   walk.lookForth();

@@ -3,10 +3,10 @@
 #include <filesystem>
 
 #include "apps/benchmark/resolution.h"
-#include "depth_fusion/common/error.h"
-#include "tools/plots/line_plot.h"
 #include "common/io/image_file.h"
 #include "common/io/text_file.h"
+#include "depth_fusion/common/error.h"
+#include "tools/plots/line_plot.h"
 
 namespace depth_fusion {
 namespace {

@@ -4,7 +4,6 @@
 #include <iostream>
 
 #include "depth_fusion/common/error.h"
-#include "tools/evaluation/block_count.h"
 #include "depth_fusion/pipeline/posed_preprocessor.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/trajectory_file.h"
@@ -12,6 +11,7 @@
 #include "depth_fusion/surface_mesh/ply.h"
 #include "pipeline/depth_in_range.h"
 #include "ros/bags/open_recording.h"
+#include "tools/evaluation/block_count.h"
 
 namespace depth_fusion {
 namespace {

@@ -63,7 +63,7 @@ double weightOf(const PointMatch& match, double cutoff_sigmas) {
   return tukeyWeight(match.residual_m / match.sigma_m, cutoff_sigmas) / (match.sigma_m * match.sigma_m);
 }
 
-// By the twist applied to T_B_A on the left.
+// The derivative by the twist that is applied to T_B_A on the left.
 Vector6d byPose(const PointMatch& match) {
   Vector6d derivative;
   derivative << match.b.p_D.cross(match.b.normal_D), match.b.normal_D;

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/evaluation/block_count.h"
 #include "map/map_args.h"
+#include "tools/evaluation/block_count.h"
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
 namespace depth_fusion {

@@ -16,7 +16,7 @@ constexpr int kTitle_px = 36;
 constexpr int kScale_px = 60;
 const cv::Scalar kInk(40, 40, 40);
 
-// From blue over white to red; grey for what is unknown.
+// Colours go from blue over white to red; what is unknown is grey.
 cv::Vec3b colorOf(float value, double limit) {
   if (std::isnan(value)) return {200, 200, 200};
   const double part = std::clamp(value / limit, -1.0, 1.0);

@@ -10,9 +10,9 @@
 #include "depth_fusion/registration/frame_registration.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
-#include "tools/simulation/simulated_recording.h"
 #include "map/map_args.h"
 #include "support/test_compute.h"
+#include "tools/simulation/simulated_recording.h"
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
 namespace depth_fusion {
