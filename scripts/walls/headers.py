@@ -1,5 +1,6 @@
 """Every header compiles alone. Other libraries' headers come precompiled, which makes it quick; that a header includes
 what it uses of them, the wall `includes` checks by name."""
+import collections
 import concurrent.futures
 import os
 import subprocess
@@ -7,15 +8,19 @@ import subprocess
 from walls import commands
 from walls.tree import Green, Result
 
+# Precompiled is what so many of ours include; the others' headers are read where they are included.
+MANY = 8
 # The package's own messages, which a build makes, and what reads macros of the header that includes it.
 LEFT_OUT = ("depth_fusion/", "CL/")
 COMPILER = ["c++", "-std=c++17", "-Wall", "-Wextra"]
 
 
 def external_headers(tree, paths):
-    """What the headers include of others."""
-    names = {include.name for path in paths for part in tree.closure(path) for include in tree.includes[part]
-             if not include.path and not include.name.startswith(LEFT_OUT)}
+    """What many headers include of others."""
+    users = collections.Counter(name for path in paths for name in {
+        include.name for part in tree.closure(path) for include in tree.includes[part]
+        if not include.path and not include.name.startswith(LEFT_OUT)})
+    names = [name for name, count in users.items() if count >= MANY]
     return "".join(f"#if __has_include(<{name}>)\n#include <{name}>\n#endif\n" for name in sorted(names))
 
 

@@ -10,7 +10,7 @@ ParameterTable IcpTrackingParameters::table() {
       number("fine_distance_m", &fine_distance_m, 1e-4, 10.0,
              "largest distance between the points of a match at full size"),
       number("max_rmse_m", &max_rmse_m, 1e-5, 1.0,
-             "a frame is lost if the RMS of its point-to-plane distances is above"),
+             "a frame is lost if the RMS of its point-to-plane distances is larger"),
       number("max_translation_m", &max_translation_m, 1e-3, 100.0,
              "a frame is lost if its position differs from the prior's by more"),
       number("max_rotation_rad", &max_rotation_rad, 1e-3, 3.1416,

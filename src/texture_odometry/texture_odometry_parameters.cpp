@@ -7,7 +7,7 @@ ParameterTable TextureOdometryParameters::table() {
       flag("enabled", &enabled, "false: ICP starts from the last pose"),
       number("levels", &levels, 1, 6, "levels of the image pyramid; coarse ones help against motion blur"),
       number("features_per_cell", &features_per_cell, 1, 100,
-             "the strongest corners of a cell are kept, so many"),
+             "how many of a cell's strongest corners are kept"),
       number("corner_threshold", &corner_threshold, 1, 255,
              "brightness step, in grey values, of a corner (FAST)"),
       number("search_radius_px", &search_radius_px, 1.0, 10000.0,
