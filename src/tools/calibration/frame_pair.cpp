@@ -55,7 +55,8 @@ std::vector<PointMatch> matchPoints(const std::vector<ViewPoint>& points_A, cons
     matches.push_back({point, *other, normal_A, other->normal_D.dot(p_B - other->p_D), 0.0});
     moveToMean(matches.back(), b.sensor());
   }
-  const bool enough = matches.size() >= kMinMatches && matches.size() >= kMinMatchedPart * points_A.size();
+  const double needed = kMinMatchedPart * static_cast<double>(points_A.size());
+  const bool enough = matches.size() >= kMinMatches && static_cast<double>(matches.size()) >= needed;
   return enough ? matches : std::vector<PointMatch>();
 }
 
