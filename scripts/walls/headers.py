@@ -9,7 +9,7 @@ from walls import commands
 from walls.tree import Green, Result
 
 # Precompiled is what so many of ours include; the others' headers are read where they are included.
-MANY = 8
+MANY = 20
 # The package's own messages, which a build makes, and what reads macros of the header that includes it.
 LEFT_OUT = ("depth_fusion/", "CL/")
 COMPILER = ["c++", "-std=c++17", "-Wall", "-Wextra"]

@@ -183,7 +183,7 @@ TEST_F(EveryKernel, OfAListOfRequestsThatIsFull) {
   points_outside.fill(0, sizeof(int));
   TsdfFusion::Kernels(compute, map)
       .requestBlocks(preprocessor.process(roomFrame(0)), map, requests, count, points_outside,
-                     Pose::Identity(), {1, 5, kCapacity});
+                     Pose::Identity(), {1, 0.0f, 5, kCapacity});
   EXPECT_GT(count.read<int>(1).front(), kCapacity);
 }
 
