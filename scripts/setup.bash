@@ -10,8 +10,9 @@ export PATH="/usr/bin:$PATH"
 unset PYTHONHOME PYTHONPATH
 
 # What the rosdep keys of package.xml do not bring: tools, a CPU device for OpenCL, one that checks kernels, and
-# what draws plots.
+# what draws plots. scripts/check has use for clang-format 14 only, which is Debian 12's.
 TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd oclgrind python3-matplotlib)
+CHECK_PACKAGES=(clang-format clang-tidy)
 ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 # Debian carries ROS 1 itself, under its own names.
 DEBIAN_PACKAGES=(
@@ -118,13 +119,16 @@ prepare_ros_network() {
   echo "127.0.0.1 localhost" | as_root tee -a /etc/hosts >/dev/null || say "could not write /etc/hosts; ROS will not start"
 }
 
-# Builds the given CMake targets.
-build() {
+# Prepares the build, with the given options of CMake; what an earlier call has set, stays.
+configure() {
   local log="$BUILD/configure.log"
   mkdir -p "$BUILD"
-  cmake -S "$ROOT" -B "$BUILD" -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=ON \
-    -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$log" 2>&1 ||
+  cmake -S "$ROOT" -B "$BUILD" -DCATKIN_ENABLE_TESTING=ON -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@" >"$log" 2>&1 ||
     { cat "$log" >&2; fail "the build cannot be configured; the reason stands above"; }
+}
+
+# Builds the given CMake targets.
+build() {
   say "building in $BUILD"
   cmake --build "$BUILD" --parallel "$(nproc)" --target "$@"
 }

@@ -9,26 +9,28 @@ constexpr double kMaxSetting = 1e6;
 
 ParameterTable CameraSettings::table() {
   return {
-      {"auto_exposure", &auto_exposure, 0, 1, "of the colour camera"},
-      {"auto_white_balance", &auto_white_balance, 0, 1, "of the colour camera"},
-      {"exposure", &exposure, 0, kMaxSetting, "in the driver's units, without auto_exposure; 0: as it is"},
-      {"gain", &gain, 0, kMaxSetting, "in the driver's units, without auto_exposure; 0: as it is"}};
+      flag("auto_exposure", &auto_exposure, "true: the colour camera chooses its exposure"),
+      flag("auto_white_balance", &auto_white_balance, "true: the colour camera chooses its white balance"),
+      number("exposure", &exposure, 0, kMaxSetting,
+             "the colour camera's, in the driver's units, without auto_exposure; 0: as it is"),
+      number("gain", &gain, 0, kMaxSetting,
+             "the colour camera's, in the driver's units, without auto_exposure; 0: as it is")};
 }
 
 ParameterTable DeviceParameters::table() {
-  ParameterTable rows = atStartOnly(
-      {{"device_id", &device_id, 0, 0,
-        "a camera: #1 (the first), URI, serial number or USB bus@address; or an .oni file"},
-       {"depth_mode", &depth_mode, 0, 0, "WIDTHxHEIGHT@FPS of the camera"},
-       {"color_mode", &color_mode, 0, 0, "the same, or off"},
-       {"ir_mode", &ir_mode, 0, 0, "the same, or off; many cameras have either colour or infrared"},
-       {"depth_registration", &depth_registration, 0, 1,
-        "depth as the colour camera sees it, if the camera can"},
-       {"color_depth_synchronization", &color_depth_synchronization, 0, 1,
-        "both at the same moment, if the camera can"}});
-  const ParameterTable camera_rows = camera.table();
-  rows.insert(rows.end(), camera_rows.begin(), camera_rows.end());
-  return rows;
+  return joined(
+      {atStartOnly({text("device_id", &device_id,
+                         "a camera: #1 (the first), URI, serial number or USB bus@address; or an .oni file"),
+                    text("depth_mode", &depth_mode, "size and rate of the camera's depth: WIDTHxHEIGHT@FPS"),
+                    text("color_mode", &color_mode, "size and rate of the camera's colour, or off"),
+                    text("ir_mode", &ir_mode,
+                         "size and rate of the camera's infrared, or off; many cameras have either colour or "
+                         "infrared"),
+                    flag("depth_registration", &depth_registration,
+                         "true: depth as the colour camera sees it, if the camera can"),
+                    flag("color_depth_synchronization", &color_depth_synchronization,
+                         "true: colour and depth at the same moment, if the camera can")}),
+       camera.table()});
 }
 
 }  // namespace depth_fusion

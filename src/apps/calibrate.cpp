@@ -6,12 +6,12 @@
 #include "apps/calibrate/report.h"
 #include "apps/calibrate/tracked_recording.h"
 #include "apps/command_line.h"
-#include "tools/calibration/depth_scale.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/registration/registered_recording.h"
 #include "ros/bags/open_recording.h"
+#include "tools/calibration/depth_scale.h"
 
 namespace depth_fusion {
 namespace {

@@ -3,13 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/command_line.h"
+#include "common/io/image_file.h"
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/surface_mesh/ply.h"
 #include "tools/evaluation/mesh_error.h"
 #include "tools/plots/trajectory_plot.h"
-#include "depth_fusion/recording/trajectory_file.h"
 #include "tools/simulation/scene_library.h"
-#include "depth_fusion/surface_mesh/ply.h"
-#include "common/io/image_file.h"
 
 namespace depth_fusion {
 namespace {

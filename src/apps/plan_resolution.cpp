@@ -4,10 +4,10 @@
 
 #include "apps/command_line.h"
 #include "apps/plan_resolution/count.h"
-#include "depth_fusion/common/error.h"
-#include "tools/plots/memory_plot.h"
 #include "common/io/image_file.h"
 #include "common/io/text_file.h"
+#include "depth_fusion/common/error.h"
+#include "tools/plots/memory_plot.h"
 
 namespace depth_fusion {
 namespace {
@@ -83,7 +83,7 @@ void printTable(const ResolutionPlan& plan) {
   }
 }
 
-// As reconstruct --params reads it.
+// The row as a file of parameters, which reconstruct --params reads.
 std::string mapYaml(const PlanRow& row) {
   char text[200];
   std::snprintf(text, sizeof(text),

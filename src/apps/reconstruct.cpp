@@ -66,7 +66,7 @@ void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
 void printParameters(PipelineParameters& parameters) {
   for (const Parameter& parameter : parameters.table()) {
     std::cout << parameter.name << ": " << valueText(parameter) << "   # " << rangeText(parameter) << " "
-              << parameter.help << "\n";
+              << helpText(parameter) << "\n";
   }
 }
 

@@ -2,10 +2,10 @@
 #include <iostream>
 
 #include "apps/command_line.h"
+#include "common/io/image_file.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/surface_mesh/mesh_picture.h"
 #include "depth_fusion/surface_mesh/ply.h"
-#include "common/io/image_file.h"
 
 namespace depth_fusion {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "apps/command_line.h"
 #include "depth_fusion/common/error.h"
-#include "tools/simulation/simulated_recording.h"
 #include "ros/bags/open_recording.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {

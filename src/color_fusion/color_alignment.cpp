@@ -1,6 +1,7 @@
 #include "color_fusion/color_alignment.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 

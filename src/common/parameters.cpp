@@ -62,7 +62,7 @@ std::string shortestText(float number) {
   return text.str();
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string enumerated(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
@@ -71,7 +71,7 @@ std::string joined(const std::vector<std::string>& words) {
 void checkChoice(const Parameter& parameter, const std::string& value) {
   const auto& choices = parameter.choices;
   check(choices.empty() || std::find(choices.begin(), choices.end(), value) != choices.end(),
-        "parameter '" + parameter.name + "' is '" + value + "'; it must be one of " + joined(choices));
+        "parameter '" + parameter.name + "' is '" + value + "'; it must be one of " + enumerated(choices));
 }
 
 void checkRange(const Parameter& parameter) {
@@ -108,16 +108,6 @@ void flatten(const YAML::Node& node, const std::string& prefix, const ParameterT
 }
 
 }  // namespace
-
-ParameterTable atStartOnly(ParameterTable table) {
-  for (Parameter& parameter : table) parameter.at_start_only = true;
-  return table;
-}
-
-ParameterTable withPrefix(const std::string& stage, ParameterTable stage_table) {
-  for (Parameter& parameter : stage_table) parameter.name = stage + "/" + parameter.name;
-  return stage_table;
-}
 
 const Parameter& findParameter(const ParameterTable& table, const std::string& name) {
   const auto row =
@@ -163,10 +153,14 @@ std::string valueText(const Parameter& parameter) {
   return text.str();
 }
 
+std::string helpText(const Parameter& parameter) {
+  return parameter.help + (parameter.is_expert ? " (expert)" : "");
+}
+
 std::string rangeText(const Parameter& parameter) {
   if (std::holds_alternative<bool*>(parameter.value)) return "true, false";
   if (std::holds_alternative<std::string*>(parameter.value))
-    return parameter.choices.empty() ? "text" : joined(parameter.choices);
+    return parameter.choices.empty() ? "text" : enumerated(parameter.choices);
   std::ostringstream text;
   text << "[" << parameter.minimum << ", " << parameter.maximum << "]";
   return text.str();

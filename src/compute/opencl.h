@@ -22,7 +22,7 @@ namespace depth_fusion {
 
 class KernelProfiler;
 
-// By file and options.
+// Programs are known by their file and options.
 struct BuiltPrograms {
   std::map<std::string, cl::Program> programs;
   std::mutex mutex;

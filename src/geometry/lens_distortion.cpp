@@ -24,7 +24,7 @@ double borderRadius(const CameraIntrinsics& camera) {
                   std::min(camera.cy, camera.height - 1 - camera.cy) / camera.fy);
 }
 
-// And that of its farthest corner.
+// The distance of the image's farthest corner from the axis, at depth 1.
 double cornerRadius(const CameraIntrinsics& camera) {
   const double x = std::max(camera.cx, camera.width - 1 - camera.cx) / camera.fx;
   const double y = std::max(camera.cy, camera.height - 1 - camera.cy) / camera.fy;

@@ -20,8 +20,10 @@ inline uint32_t packedNormal(const cv::Vec3f& n) {
 
 inline cv::Vec3f unpackedNormal(uint32_t word) {
   if (word == 0) return {};
-  const double u = ((word & 0xffff) - NORMAL_ZERO) / NORMAL_STEPS,
-               v = ((word >> 16) - NORMAL_ZERO) / NORMAL_STEPS;
+  const auto coordinate = [](uint32_t code) {
+    return (static_cast<float>(code) - NORMAL_ZERO) / NORMAL_STEPS;
+  };
+  const double u = coordinate(word & 0xffff), v = coordinate(word >> 16);
   return cv::Vec3d(2.0 * u, 2.0 * v, u * u + v * v - 1.0) / (1.0 + u * u + v * v);
 }
 

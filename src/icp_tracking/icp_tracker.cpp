@@ -17,7 +17,7 @@ struct IcpTracker::SystemPrior {
   std::optional<Matrix6d> information;
 };
 
-// Where the iterations have come to.
+// The state that the iterations have come to.
 struct IcpTracker::Alignment {
   Pose T_M_D;
   IcpSystem system;  // of the last iteration, as the members below

@@ -1,7 +1,7 @@
 #include "icp_tracking/icp_tracking_kernels.h"
 
-#include "geometry/kernel_args.h"
 #include "frames/sensor_args.h"
+#include "geometry/kernel_args.h"
 
 namespace depth_fusion {
 

@@ -40,7 +40,7 @@ ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& ma
       occupied_(compute, rangeTiles(camera_) * (DEPTH_BINS / 8), "ray ranges"),
       kernels_(std::make_unique<Kernels>(compute, map)) {
   validate(parameters.table());
-  if (parameters.renderer == "marching_cubes")
+  if (renderers().of(parameters.renderer) == Renderer::kMarchingCubes)
     mesh_renderer_ = std::make_unique<MeshRenderer>(compute, map, camera_);
 }
 

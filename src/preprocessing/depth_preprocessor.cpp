@@ -24,7 +24,7 @@ SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParam
   return motion;
 }
 
-// With the range that the sensor's noise allows.
+// The parameters, with the range limited to what the sensor's noise allows.
 PreprocessingParameters limited(PreprocessingParameters parameters, const DepthSensorParameters& sensor) {
   validateRange(parameters, sensor);
   parameters.max_range_m = depthRange(parameters, sensor).max_m;
@@ -97,7 +97,8 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
 
   const float sigma_px = parameters_.bilateral_sigma_px;
   BilateralArgs bilateral{{}, parameters_.bilateral_cutoff_sigmas};
-  for (int i = 0; i < 3; ++i) bilateral.spatial_weights[i] = std::exp(-i * i / (2.0f * sigma_px * sigma_px));
+  for (int i = 0; i < 3; ++i)
+    bilateral.spatial_weights[i] = std::exp(static_cast<float>(-i * i) / (2.0f * sigma_px * sigma_px));
 
   const bool compensates =
       !velocity.isZero() && (parameters_.readout_s != 0.0f || parameters_.stamp_delay_s != 0.0f);

@@ -24,9 +24,9 @@ PreprocessingKernels::PreprocessingKernels(ComputeContext& compute)
       pack_weighted_(compute, kMeasurementsFile, "pack_measurements", "-DWEIGHTS"),
       tiles_(compute, kFile, "max_tiles") {}
 
-void PreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input,
-                                              const DeviceBuffer& offsets, DeviceBuffer& depth,
-                                              const CameraIntrinsics& camera, const RangeArgs& range) {
+void PreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input, const DeviceBuffer& offsets,
+                                         DeviceBuffer& depth, const CameraIntrinsics& camera,
+                                         const RangeArgs& range) {
   Kernel& plain = is_u16 ? from_u16_ : from_f32_;
   Kernel& with_offsets = is_u16 ? from_u16_corrected_ : from_f32_corrected_;
   Kernel& kernel = offsets.bytes() == 0 ? plain : with_offsets;
@@ -35,15 +35,14 @@ void PreprocessingKernels::depthToMetres(bool is_u16, const DeviceBuffer& input,
 }
 
 void PreprocessingKernels::compensateMotion(const DeviceBuffer& depth, DeviceBuffer& compensated,
-                                                 const CameraIntrinsics& camera,
-                                                 const SensorMotionArgs& motion) {
+                                            const CameraIntrinsics& camera, const SensorMotionArgs& motion) {
   compensate_motion_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, compensated,
                            toArgs(camera), motion);
 }
 
 void PreprocessingKernels::filterBilateral(const DeviceBuffer& depth, DeviceBuffer& filtered,
-                                                const CameraIntrinsics& camera, const SensorArgs& sensor,
-                                                const BilateralArgs& args) {
+                                           const CameraIntrinsics& camera, const SensorArgs& sensor,
+                                           const BilateralArgs& args) {
   bilateral_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, filtered, toArgs(camera), sensor,
                    args);
 }
@@ -54,13 +53,13 @@ void PreprocessingKernels::halveDepth(const DepthLevel& level, DepthLevel& half,
 }
 
 void PreprocessingKernels::computeNormals(const DeviceBuffer& depth, DeviceBuffer& normals,
-                                               const CameraIntrinsics& camera, float max_relative_step) {
+                                          const CameraIntrinsics& camera, float max_relative_step) {
   normals_.run2d(vectorsAcross(camera, simd_width_), camera.height, depth, normals, toArgs(camera),
                  max_relative_step);
 }
 
 void PreprocessingKernels::packMeasurements(const DepthFrame& frame, const DeviceBuffer& weights,
-                                                 DeviceBuffer& measurements) {
+                                            DeviceBuffer& measurements) {
   const DepthLevel& level = frame.levels[0];
   Kernel& pack = weights.bytes() == 0 ? pack_ : pack_weighted_;
   pack.run2d(vectorsAcross(level.camera, simd_width_), level.camera.height, level.depth, level.normals,
@@ -68,7 +67,7 @@ void PreprocessingKernels::packMeasurements(const DepthFrame& frame, const Devic
 }
 
 void PreprocessingKernels::maxTiles(const DeviceBuffer& depth, DeviceBuffer& tiles,
-                                         const CameraIntrinsics& camera) {
+                                    const CameraIntrinsics& camera) {
   const int tile_columns = (camera.width + DEPTH_TILE - 1) / DEPTH_TILE;
   const int tile_count = tile_columns * ((camera.height + DEPTH_TILE - 1) / DEPTH_TILE);
   tiles_.run(tile_count, depth, tiles, toArgs(camera), tile_columns, tile_count);

@@ -1,5 +1,6 @@
 #include "recording/depth_units.h"
 
+#include <cstdint>
 #include <limits>
 
 #include "depth_fusion/common/error.h"

@@ -93,8 +93,8 @@ void drawTriangle(Canvas& canvas, const Corner (&t)[3]) {
   const auto v = std::minmax({t[0].v, t[1].v, t[2].v});
   const float right = std::min(u.second, static_cast<float>(canvas.width - 1));
   const float bottom = std::min(v.second, static_cast<float>(canvas.height - 1));
-  for (auto y = static_cast<int>(std::ceil(std::max(v.first, 0.0f))); y <= bottom; ++y) {
-    for (auto x = static_cast<int>(std::ceil(std::max(u.first, 0.0f))); x <= right; ++x) {
+  for (auto y = static_cast<int>(std::ceil(std::max(v.first, 0.0f))); static_cast<float>(y) <= bottom; ++y) {
+    for (auto x = static_cast<int>(std::ceil(std::max(u.first, 0.0f))); static_cast<float>(x) <= right; ++x) {
       drawPixel(canvas, t, whole, x, y);
     }
   }

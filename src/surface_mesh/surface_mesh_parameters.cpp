@@ -3,10 +3,10 @@
 namespace depth_fusion {
 
 ParameterTable SurfaceMeshParameters::table() {
-  return {{"min_certainty", &min_certainty, 0, 255,
-           "certainty (see tsdf_fusion/rule) from which on a voxel counts as known"},
-          {"max_batch_blocks", &max_batch_blocks, 8, 8192,
-           "blocks extracted at a time, if 16 MiB hold so many; fewer take less memory"}};
+  return {number("min_certainty", &min_certainty, 0, 255,
+                 "certainty (see tsdf_fusion/rule) from which on a voxel counts as known"),
+          number("max_batch_blocks", &max_batch_blocks, 8, 8192,
+                 "blocks extracted at a time, if 16 MiB hold so many; fewer take less memory")};
 }
 
 }  // namespace depth_fusion

@@ -100,7 +100,7 @@ class SurfaceFinder {
     return planeOfPixels(plane, centre_u, centre_v);
   }
 
-  // From inverse depth over offsets from a pixel to inverse depth over (x/z, y/z, 1).
+  // Turns inverse depth over offsets from a pixel into inverse depth over (x/z, y/z, 1).
   Vector3d planeOfPixels(const Vector3d& plane, int centre_u, int centre_v) const {
     const CameraIntrinsics& camera = frame_.intrinsics;
     return {plane.x() * camera.fx, plane.y() * camera.fy,

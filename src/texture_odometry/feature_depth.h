@@ -1,8 +1,8 @@
 // The surface under a feature, from the depth image.
 #pragma once
 
-#include "depth_fusion/frames/rgbd_frame.h"
 #include "depth_fusion/frames/frame_features.h"
+#include "depth_fusion/frames/rgbd_frame.h"
 
 namespace depth_fusion {
 

@@ -39,7 +39,8 @@ std::vector<size_t> drawSample(std::mt19937& random, size_t count) {
   return sample;
 }
 
-// From the points alone where all have depth twice; a start for what the pixels refine.
+// The motion that the points alone tell, where all have depth twice; it is a start for what the pixels
+// refine.
 Pose alignPoints(const std::vector<Correspondence>& correspondences, const std::vector<size_t>& sample) {
   Eigen::Matrix3d reference, current;
   for (size_t i = 0; i < kSampleSize; ++i) {

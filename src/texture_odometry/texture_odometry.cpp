@@ -76,7 +76,7 @@ int inlierCount(const std::optional<MotionEstimate>& motion) {
   return motion ? static_cast<int>(motion->inliers.size()) : 0;
 }
 
-// From colour camera frames to depth camera frames.
+// Turns the colour camera's motion into the depth camera's.
 void setMotion(const MotionEstimate& estimate, const FrameFeatures& reference, const FrameFeatures& current,
                double sigma_scale, TextureOdometryResult& result) {
   const Pose T_D_C = reference.T_C_D.inverse();
@@ -155,8 +155,8 @@ TextureOdometryResult TextureOdometry::match(const FrameFeatures& reference, con
     return result;
   }
 
-  const int needed = std::max(parameters_.min_inliers,
-                              static_cast<int>(std::ceil(parameters_.min_inlier_fraction * result.matches)));
+  const float fraction_needed = parameters_.min_inlier_fraction * static_cast<float>(result.matches);
+  const int needed = std::max(parameters_.min_inliers, static_cast<int>(std::ceil(fraction_needed)));
   const MotionCameras cameras{reference.camera, current.camera};
   std::optional<MotionEstimate> motion =
       estimateByRansac(pairs, cameras, {parameters_.coarse_inlier_px, parameters_.inlier_depth_sigmas},

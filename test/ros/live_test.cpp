@@ -129,8 +129,9 @@ TEST_F(Live, UnloadsAndReloadsWhileFramesStream) {
   for (const std::string nodelet : {"tsdf_fusion", "icp_tracking", "texture_odometry", "tsdf_fusion"}) {
     const std::weak_ptr<SharedMap> map = findMap(graph_.resolve("tsdf_fusion"));
     EXPECT_TRUE(graph_.unload(nodelet));
-    if (nodelet == "tsdf_fusion")
+    if (nodelet == "tsdf_fusion") {
       EXPECT_TRUE(eventually([&] { return map.expired(); })) << "the map has leaked";
+    }
     EXPECT_TRUE(graph_.load(nodelet));
     EXPECT_TRUE(fusesFromNowOn()) << nodelet;
   }

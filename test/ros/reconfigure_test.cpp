@@ -217,7 +217,7 @@ TEST_F(Reconfigure, DescriptionsSayWhatTheTableSays) {
     for (const Parameter& row : table) {
       const auto* described = find(group->parameters, row.name);
       ASSERT_NE(described, nullptr) << row.name;
-      EXPECT_EQ(described->description, row.help + (row.at_start_only ? " (at the start only)" : ""));
+      EXPECT_EQ(described->description, helpText(row) + (row.at_start_only ? " (at the start only)" : ""));
       EXPECT_EQ(described->edit_method.empty(), row.choices.empty()) << row.name;
       const auto* real_value = std::get_if<float*>(&row.value);
       if (real_value == nullptr) continue;

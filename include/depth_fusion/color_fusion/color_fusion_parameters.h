@@ -1,4 +1,4 @@
-// How colour is fused.
+// How colour is fused. The rows of table() say what each member means, in which unit and range.
 #pragma once
 
 #include "depth_fusion/common/parameters.h"

@@ -6,8 +6,8 @@
 
 namespace depth_fusion {
 
-// The default is the Kinect v1 (Nguyen et al. 2012). Axial: sigma = base + growth (z - from)^2, along the
-// ray.
+// The default is the Kinect v1 (Nguyen et al. 2012). The axial sigma, which is measured along the ray, is
+// base + growth (z - from)^2. The rows of table() say what each member means, in which unit and range.
 struct DepthSensorParameters {
   float sigma_base_m = 0.0012f;
   float sigma_growth_per_m = 0.0019f;

@@ -6,11 +6,11 @@
 
 #include "depth_fusion/common/stage_timers.h"
 #include "depth_fusion/compute/compute_context.h"
+#include "depth_fusion/frames/depth_frame.h"
+#include "depth_fusion/frames/model_view.h"
 #include "depth_fusion/frames/motion_prior.h"
 #include "depth_fusion/frames/tracking_result.h"
 #include "depth_fusion/icp_tracking/icp_tracking_parameters.h"
-#include "depth_fusion/frames/model_view.h"
-#include "depth_fusion/frames/depth_frame.h"
 
 namespace depth_fusion {
 
@@ -26,7 +26,7 @@ class IcpTracker {
              const CameraIntrinsics& camera);
   ~IcpTracker();
 
-  // For the frames to come.
+  // The frames to come are aligned by these.
   void setParameters(const IcpTrackingParameters& parameters);
 
   // Aligns the frame to the view, coarse to fine, starting from the prior. A prior with a covariance takes

@@ -1,4 +1,5 @@
-// How depth is aligned to the model view.
+// How depth is aligned to the model view. The rows of table() say what each member means, in which unit and
+// range.
 #pragma once
 
 #include "depth_fusion/common/parameters.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <opencv2/core.hpp>
 
 #include "depth_fusion/common/stage_timers.h"
 #include "depth_fusion/compute/result_pool.h"

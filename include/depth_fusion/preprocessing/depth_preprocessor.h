@@ -22,7 +22,7 @@ class DepthPreprocessor {
                     const CameraIntrinsics& camera, const DepthSensorParameters& sensor = {});
   ~DepthPreprocessor();
 
-  // For the frames to come. Throws as validateRange does, and changes nothing then.
+  // The frames to come are preprocessed by these. Throws as validateRange does, and changes nothing then.
   void setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
   // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s); with it the depth
   // becomes that of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid

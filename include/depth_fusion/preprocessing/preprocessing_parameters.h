@@ -1,4 +1,4 @@
-// How depth is preprocessed.
+// How depth is preprocessed. The rows of table() say what each member means, in which unit and range.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace depth_fusion {
 struct PreprocessingParameters {
   float min_range_m = 0.3f;
   float max_range_m = 5.0f;
-  std::string depth_offsets_per_m;  // parseDepthOffsets reads it
+  std::string depth_offsets_per_m;  // parseDepthOffsets() reads it
   float readout_s = 0.0f;
   float stamp_delay_s = 0.0f;
   float bilateral_sigma_px = 1.5f;

@@ -1,4 +1,4 @@
-// How frames are registered.
+// How frames are registered. The rows of table() say what each member means, in which unit and range.
 #pragma once
 
 #include "depth_fusion/common/parameters.h"

@@ -1,4 +1,4 @@
-// How a lost sensor is found again.
+// How a lost sensor is found again. The rows of table() say what each member means, in which unit and range.
 #pragma once
 
 #include "depth_fusion/common/parameters.h"

@@ -16,7 +16,7 @@ class TextureOdometry {
   explicit TextureOdometry(const TextureOdometryParameters& parameters,
                            const DepthSensorParameters& sensor = {});
 
-  // For the frames to come.
+  // The frames to come are matched by these.
   void setParameters(const TextureOdometryParameters& parameters, const DepthSensorParameters& sensor);
 
   // The motion against the frame of the last call.

@@ -1,4 +1,5 @@
-// How the motion of the texture is found.
+// How the motion of the texture is found. The rows of table() say what each member means, in which unit and
+// range.
 #pragma once
 
 #include "depth_fusion/common/parameters.h"

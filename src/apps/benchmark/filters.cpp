@@ -8,8 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "depth_fusion/common/error.h"
-#include "tools/plots/line_plot.h"
 #include "tools/evaluation/wall_experiment.h"
+#include "tools/plots/line_plot.h"
 
 namespace depth_fusion {
 namespace {

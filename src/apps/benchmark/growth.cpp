@@ -15,12 +15,13 @@ constexpr double kRoomPitch_m = 7.0;  // a room's diagonal is 6; nearer ones com
 constexpr size_t kYoungFrames = 500;
 constexpr double kTarget = 1.1;  // a frame at the end over one after so many
 
-// mislead.
+// The parameters of the walk; the pool is large enough for all that it sees.
 PipelineParameters walkParameters(double voxel_mm, double window_m) {
   PipelineParameters parameters;
   MapParameters& map = parameters.map;
   map.voxel_size_m = static_cast<float>(0.001 * voxel_mm);
-  map.blocks_per_axis = static_cast<int>(std::lround(window_m / (map.block_size * map.voxel_size_m)));
+  map.blocks_per_axis =
+      static_cast<int>(std::lround(window_m / (static_cast<float>(map.block_size) * map.voxel_size_m)));
   map.pool_mib = 1024;
   return parameters;
 }
@@ -69,7 +70,7 @@ GrowthSample visit(GrowthWalk& walk, const Eigen::Vector3d& room_W, const Camera
   return sample;
 }
 
-// Where the first room has just been mapped (again).
+// Afterwards the first room has just been mapped, anew or again.
 void enterAndMap(GrowthWalk& walk) {
   walk.enter(rooms().front());
   walk.lookForth();

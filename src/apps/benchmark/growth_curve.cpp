@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <fstream>
 
-#include "tools/plots/line_plot.h"
-#include "tools/evaluation/power_law.h"
 #include "common/io/image_file.h"
 #include "common/io/text_file.h"
+#include "tools/evaluation/power_law.h"
+#include "tools/plots/line_plot.h"
 
 namespace depth_fusion {
 namespace {

@@ -32,7 +32,7 @@ struct GrowthCurve {
   std::vector<GrowthSample> samples = {};
 };
 
-// In MiB, now.
+// The memory that this process holds now, in MiB.
 double residentSet_mib();
 
 std::string growthTableHead();

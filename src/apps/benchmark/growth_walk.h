@@ -19,11 +19,12 @@ class GrowthWalk {
   GrowthWalk(ComputeContext& compute, const PipelineParameters& parameters,
              const std::vector<RgbdFrame>& views);
 
-  // To the first view of the room whose first camera stands at room_W, with known start. Timers begin anew.
+  // Goes to the first view of the room whose first camera stands at room_W; the start is known. Timers begin
+  // anew.
   void enter(const Eigen::Vector3d& room_W);
   // One tracked frame of the present room.
   void look(size_t view);
-  // From the first view to the last, and back.
+  // They go from the first view to the last, and back.
   void lookForth();
   void lookBack();
 

@@ -22,7 +22,7 @@ std::optional<KernelCost> kernelCost(const std::string& kernel, const StageFixtu
   const double voxels = VOXELS_PER_ITEM(width, map.block_size);
   const double band_samples = 2.0 * map.truncation_m / (0.5 * map.voxel_size_m * map.block_size) + 1.0;
   // A work-group of accumulate_system takes a row of its level's image; it has one work-item but on GPUs.
-  const double group_items = width == 1 ? fixture.compute().impl().group_size : 1.0;
+  const double group_items = width == 1 ? static_cast<double>(fixture.compute().impl().group_size) : 1.0;
   const double row_part = (fixture.camera().width >> std::max(stage.level, 0)) / group_items;
   const double rays = RAY_PATCHES(width) * RAY_STRIDE * RAY_STRIDE * static_cast<double>(width);
   // element, elements a work-item, bytes, flops, gathers

@@ -50,8 +50,8 @@ void multiplyAdd(State& state, ComputeContext& compute) {
   const size_t lanes = static_cast<size_t>(kItems) * compute.impl().simd_width;
   DeviceBuffer sums(compute, lanes * sizeof(float), "a limit");
   measure(state, compute, kernel, kItems, sums, kRounds, 0.5f);
-  state.counters["flops"] =
-      Counter(2.0 * kMultiplyAdds * kRounds * lanes * state.iterations(), Counter::kIsRate);
+  const double flops = 2.0 * kMultiplyAdds * kRounds * static_cast<double>(lanes);
+  state.counters["flops"] = Counter(flops * static_cast<double>(state.iterations()), Counter::kIsRate);
 }
 
 void gatherWords(State& state, ComputeContext& compute, size_t table_bytes) {
@@ -61,8 +61,8 @@ void gatherWords(State& state, ComputeContext& compute, size_t table_bytes) {
   table.fill(1, table_bytes);
   const int last_index = static_cast<int>(table_bytes / sizeof(int)) - 1;
   measure(state, compute, kernel, kItems, table, sums, kRounds, last_index);
-  state.counters["gathers"] =
-      Counter(static_cast<double>(kRounds) * lanes * state.iterations(), Counter::kIsRate);
+  const double gathers = kRounds * static_cast<double>(lanes);
+  state.counters["gathers"] = Counter(gathers * static_cast<double>(state.iterations()), Counter::kIsRate);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "tools/plots/line_plot.h"
 #include "common/io/image_file.h"
 #include "common/io/text_file.h"
+#include "tools/plots/line_plot.h"
 
 namespace depth_fusion {
 namespace {

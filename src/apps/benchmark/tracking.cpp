@@ -7,11 +7,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/benchmark/tracking_inputs.h"
+#include "common/io/text_file.h"
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/surface_mesh/mesh_picture.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "tools/evaluation/trajectory_error.h"
-#include "depth_fusion/surface_mesh/mesh_picture.h"
-#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

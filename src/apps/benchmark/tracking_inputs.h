@@ -21,7 +21,7 @@ std::string dataFolder(const std::string& chosen);
 // The simulated room, without its truth.
 TrackingInput roomInput(int frames);
 
-// Those of options.inputs, or all. Throws Error for a name that is not known.
+// The inputs that options.inputs names, or all. Throws Error for a name that is not known.
 std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options);
 
 }  // namespace depth_fusion

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "tools/plots/calibration_picture.h"
 #include "common/io/image_file.h"
 #include "common/io/text_file.h"
+#include "tools/plots/calibration_picture.h"
 
 namespace depth_fusion {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/calibration/time_offset.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
+#include "tools/calibration/time_offset.h"
 
 namespace depth_fusion {
 

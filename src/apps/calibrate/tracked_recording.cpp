@@ -44,7 +44,7 @@ class FrameChoice {
   std::vector<CalibrationFrame> frames_;
 };
 
-// From the poses before and after; none at the ends.
+// The velocity between the poses before and after; zero at the ends.
 Vector6d velocityAt(const Trajectory& trajectory, double stamp_s) {
   const auto now =
       std::lower_bound(trajectory.begin(), trajectory.end(), stamp_s,

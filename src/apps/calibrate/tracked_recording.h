@@ -1,8 +1,8 @@
 // A recording, tracked: what calibration needs of it.
 #pragma once
 
-#include "tools/calibration/time_offset.h"
 #include "depth_fusion/recording/recording.h"
+#include "tools/calibration/time_offset.h"
 
 namespace depth_fusion {
 

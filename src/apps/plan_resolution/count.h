@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "tools/evaluation/resolution_plan.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "depth_fusion/recording/recording.h"
+#include "tools/evaluation/resolution_plan.h"
 
 namespace depth_fusion {
 

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "depth_fusion/common/percentile.h"
 #include "common/io/text_file.h"
+#include "depth_fusion/common/percentile.h"
 
 namespace depth_fusion {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "depth_fusion/common/error.h"
 #include "common/io/text_file.h"
+#include "depth_fusion/common/error.h"
 
 namespace depth_fusion {
 namespace {

@@ -29,7 +29,7 @@ std::optional<cv::Size> pngSize(const std::string& path);
 // Throws Error naming the file if it cannot be written completely.
 void writePng(const std::string& path, const cv::Mat& image);
 
-// In the format that the path's ending tells. Throws Error naming the file if it cannot be written.
+// Writes in the format that the path's ending tells. Throws Error naming the file if it cannot be written.
 void writePicture(const std::string& path, const cv::Mat& picture);
 
 }  // namespace depth_fusion

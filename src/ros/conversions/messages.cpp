@@ -3,6 +3,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "depth_fusion/common/error.h"
 

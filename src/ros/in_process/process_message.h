@@ -8,6 +8,7 @@
 
 #include <boost/make_shared.hpp>
 #include <boost/shared_ptr.hpp>
+#include <cstdint>
 #include <memory>
 
 namespace depth_fusion {

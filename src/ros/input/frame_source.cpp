@@ -1,5 +1,7 @@
 #include "ros/input/frame_source.h"
 
+#include <algorithm>
+
 namespace depth_fusion {
 
 void FrameSource::stop() {

@@ -3,6 +3,7 @@
 #include <tf2/exceptions.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "depth_fusion/common/error.h"

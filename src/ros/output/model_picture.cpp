@@ -9,8 +9,9 @@
 namespace depth_fusion {
 
 ParameterTable ModelPictureParameters::table() {
-  return {{"picture", &picture, 0, 0, "of the model view, on model_view/image", {"shaded", "colored"}},
-          {"picture_rate_hz", &picture_rate_hz, 0.1, 100.0, "at most"}};
+  return {choice("picture", &picture, {"shaded", "colored"}, "how model_view/image shows the model view"),
+          number("picture_rate_hz", &picture_rate_hz, 0.1, 100.0,
+                 "how often model_view/image is published at most")};
 }
 
 void ModelPicture::publish(const std_msgs::Header& header, ModelViewRenderer& renderer,

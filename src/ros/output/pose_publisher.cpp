@@ -24,15 +24,15 @@ Pose levelCamera() {
 
 ParameterTable PoseParameters::table() {
   return atStartOnly(
-      {{"publish_tf", &publish_tf, 0, 1, "false: poses as messages only"},
-       {"map_frame", &map_frame, 0, 0, "frame of the map and of the poses"},
-       {"odom_frame", &odom_frame, 0, 0,
-        "child of map_frame on tf, where the robot has odometry; empty: base_frame, or the root of the "
-        "camera's tree"},
-       {"base_frame", &base_frame, 0, 0, "child of map_frame on tf, where the robot has no odometry"},
-       {"level_start", &level_start, 0, 1,
-        "a camera without a tf tree starts looking along x with z up; false: the map is the first optical "
-        "frame"}});
+      {flag("publish_tf", &publish_tf, "false: poses as messages only"),
+       text("map_frame", &map_frame, "frame of the map and of the poses"),
+       text("odom_frame", &odom_frame,
+            "child of map_frame on tf, where the robot has odometry; empty: base_frame, or the root of the "
+            "camera's tree"),
+       text("base_frame", &base_frame, "child of map_frame on tf, where the robot has no odometry"),
+       flag("level_start", &level_start,
+            "true: a camera without a tf tree starts looking along x with z up; false: the map is the first "
+            "optical frame")});
 }
 
 PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_handle,

@@ -58,7 +58,7 @@ dynamic_reconfigure::ParamDescription describe(const Parameter& row) {
   description.name = row.name;
   description.type = typeName(row);
   description.level = row.at_start_only ? SensorLevels::RECONFIGURE_CLOSE : SensorLevels::RECONFIGURE_RUNNING;
-  description.description = row.help + (row.at_start_only ? " (at the start only)" : "");
+  description.description = helpText(row) + (row.at_start_only ? " (at the start only)" : "");
   description.edit_method = enumOf(row);
   return description;
 }

@@ -61,7 +61,7 @@ class LocalSystem {
   // The step of the local unknowns alone.
   LocalVector localStep() const { return -solver().solve(local_gradient_); }
 
-  // Of the shared parameters, with the local unknowns always at their best.
+  // The equations of the shared parameters, with the local unknowns always at their best.
   NormalEquations eliminated() const {
     const auto by_local = solver();
     NormalEquations result = shared_;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include "tools/calibration/frame_pair.h"
-#include "tools/calibration/plane_patches.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
+#include "tools/calibration/frame_pair.h"
+#include "tools/calibration/plane_patches.h"
 
 namespace depth_fusion {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "depth_fusion/compute/compute_context.h"
-#include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "depth_fusion/frames/rgbd_frame.h"
+#include "depth_fusion/pipeline/pipeline_parameters.h"
 
 namespace depth_fusion {
 

@@ -1,8 +1,8 @@
 // The factor on the depth, which no depth sensor can know without a length from outside.
 #pragma once
 
-#include "tools/calibration/depth_calibration.h"
 #include "depth_fusion/geometry/pose.h"
+#include "tools/calibration/depth_calibration.h"
 
 namespace depth_fusion {
 

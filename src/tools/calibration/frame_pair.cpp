@@ -55,7 +55,8 @@ std::vector<PointMatch> matchPoints(const std::vector<ViewPoint>& points_A, cons
     matches.push_back({point, *other, normal_A, other->normal_D.dot(p_B - other->p_D), 0.0});
     moveToMean(matches.back(), b.sensor());
   }
-  const bool enough = matches.size() >= kMinMatches && matches.size() >= kMinMatchedPart * points_A.size();
+  const double needed = kMinMatchedPart * static_cast<double>(points_A.size());
+  const bool enough = matches.size() >= kMinMatches && static_cast<double>(matches.size()) >= needed;
   return enough ? matches : std::vector<PointMatch>();
 }
 
@@ -63,7 +64,7 @@ double weightOf(const PointMatch& match, double cutoff_sigmas) {
   return tukeyWeight(match.residual_m / match.sigma_m, cutoff_sigmas) / (match.sigma_m * match.sigma_m);
 }
 
-// By the twist applied to T_B_A on the left.
+// The derivative by the twist that is applied to T_B_A on the left.
 Vector6d byPose(const PointMatch& match) {
   Vector6d derivative;
   derivative << match.b.p_D.cross(match.b.normal_D), match.b.normal_D;

@@ -1,6 +1,8 @@
 // The planes of a frame, walls and floors and tables, must be flat.
 #pragma once
 
+#include <cstdint>
+
 #include "tools/calibration/calibration_view.h"
 #include "tools/calibration/residual_map.h"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/calibration/calibration_system.h"
 #include "depth_fusion/common/percentile.h"
 #include "depth_fusion/recording/trajectory_file.h"
+#include "tools/calibration/calibration_system.h"
 
 namespace depth_fusion {
 namespace {
@@ -47,7 +47,7 @@ std::optional<Difference> differenceAt(const MeasuredMotion& motion, const Traje
                     (twistFromPose(*after) - twistFromPose(*before)) / (2.0 * kDifference_s)};
 }
 
-// Of the residuals' rotations (first = 0) or translations (3).
+// The sigma of the residuals' rotations (first = 0) or translations (3).
 double sigmaOf(const std::vector<Difference>& differences, int first) {
   std::vector<double> lengths;
   for (const Difference& difference : differences)

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/calibration/depth_calibration.h"
 #include "depth_fusion/geometry/pose.h"
+#include "tools/calibration/depth_calibration.h"
 
 namespace depth_fusion {
 

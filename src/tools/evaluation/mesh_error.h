@@ -1,9 +1,9 @@
 // How far a mesh is from a scene's exact surface.
 #pragma once
 
+#include "depth_fusion/surface_mesh/triangle_mesh.h"
 #include "tools/evaluation/statistics.h"
 #include "tools/simulation/scene.h"
-#include "depth_fusion/surface_mesh/triangle_mesh.h"
 
 namespace depth_fusion {
 

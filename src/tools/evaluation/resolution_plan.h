@@ -38,8 +38,8 @@ void setBlocks(PlanRow& row, size_t blocks);
 
 bool fits(const PlanRow& row, const PlanRequest& request);
 
-// Of the rows that fit, the one with the largest voxels that are not larger than wished, else with the
-// smallest; where several are of that size, the one that is fastest to map with. Null if none fits.
+// The row with the largest voxels that are not larger than wished, or else with the smallest, of those that
+// fit; where several are of that size, the one that is fastest to map with. Null if none fits.
 PlanRow* recommended(ResolutionPlan& plan);
 
 // MiB of the pool that the row's blocks need, with a quarter to spare; see map/pool_mib.

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/evaluation/block_count.h"
 #include "map/map_args.h"
+#include "tools/evaluation/block_count.h"
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
 namespace depth_fusion {
@@ -60,7 +60,8 @@ size_t SelectedBlocks::kept() const {
   const MapParameters& map = selection_->map.parameters();
   const double band_vox = 2.0 * map.truncation_m / map.voxel_size_m;
   const double voxels_extent = band_vox + kMeanCubeExtent * (map.block_size - 1);
-  return std::lround(claimed_ * voxels_extent / (band_vox + kMeanCubeExtent * map.block_size));
+  return std::lround(static_cast<double>(claimed_) * voxels_extent /
+                     (band_vox + kMeanCubeExtent * map.block_size));
 }
 
 }  // namespace depth_fusion

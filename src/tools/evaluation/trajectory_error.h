@@ -1,8 +1,8 @@
 // How far an estimated trajectory is from the true one.
 #pragma once
 
-#include "tools/evaluation/statistics.h"
 #include "depth_fusion/geometry/pose.h"
+#include "tools/evaluation/statistics.h"
 
 namespace depth_fusion {
 

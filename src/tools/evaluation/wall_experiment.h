@@ -26,7 +26,8 @@ struct WallExperiment {
   float voxel_size_m = 0.004f;
 };
 
-// Of the columns' zero crossings, each the one nearest to the wall, so that stray surfaces do not count.
+// The error of the columns' zero crossings. In each column the one nearest to the wall counts, stray surfaces
+// do not.
 struct WallError {
   double mean_m = 0.0;  // away from the sensor
   double rms_m = 0.0;

@@ -16,7 +16,7 @@ constexpr int kTitle_px = 36;
 constexpr int kScale_px = 60;
 const cv::Scalar kInk(40, 40, 40);
 
-// From blue over white to red; grey for what is unknown.
+// Colours go from blue over white to red; what is unknown is grey.
 cv::Vec3b colorOf(float value, double limit) {
   if (std::isnan(value)) return {200, 200, 200};
   const double part = std::clamp(value / limit, -1.0, 1.0);
@@ -44,8 +44,8 @@ void drawPanel(cv::Mat& picture, int number, const std::string& title, const cv:
 void drawScale(cv::Mat& picture) {
   const cv::Rect place(kMargin_px, kTitle_px + kPanel.height + 16, kPanel.width, 14);
   for (int x = 0; x < place.width; ++x) {
-    picture(cv::Rect(place.x + x, place.y, 1, place.height))
-        .setTo(colorOf(2.0f * x / place.width - 1.0f, 1.0));
+    const float part = 2.0f * static_cast<float>(x) / static_cast<float>(place.width);
+    picture(cv::Rect(place.x + x, place.y, 1, place.height)).setTo(colorOf(part - 1.0f, 1.0));
   }
   cv::rectangle(picture, place, kInk);
   write(picture, "blue: too near, red: too far, at 1 m (at 2 m four times that); grey: no plane",

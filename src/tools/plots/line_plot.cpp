@@ -42,7 +42,7 @@ double niceStep(double extent) {
   return 10.0 * power;
 }
 
-// From values to the part of the frame's width or height.
+// Maps values to the part of the frame's width or height.
 struct Axis {
   double low = 0.0, high = 0.0;  // logarithms, if so
   bool logarithmic = false;

@@ -13,7 +13,7 @@ class Sway {
   Sway(unsigned seed, double time_s) : seed_(seed), time_s_(time_s) {}
 
   double time_s() const { return time_s_; }
-  // In [-1, 1], of about the given period; channels are independent of each other.
+  // A value in [-1, 1] that swings with about the given period; channels are independent of each other.
   double operator()(int channel, double period_s) const;
 
  private:

@@ -56,7 +56,7 @@ class Primitive {
   const Material& material() const { return material_; }
   void paint(const Material& material) { material_ = material; }
   Eigen::Vector3d centre_W() const { return T_W_S_.translation(); }
-  // Of the sphere about centre_W() that holds the solid; infinite for rooms and planes.
+  // The radius of the sphere about centre_W() that holds the solid; infinite for rooms and planes.
   double boundingRadius() const;
 
  private:

@@ -18,7 +18,7 @@ const Material kHorn{{120, 160, 185}, Pattern::kMottle, 0.004, 0.35};
 const Material kBrass{{80, 150, 180}, Pattern::kMottle, 0.003, 0.35};
 const Material kPrint{{140, 150, 155}, Pattern::kMottle, 0.006, 0.6};
 
-// At `bearing_rad` about the handle's axis.
+// The point at `bearing_rad` about the handle's axis.
 Vector3d aroundAxis(double x_m, double radius_m, double bearing_rad) {
   return {x_m, radius_m * std::cos(bearing_rad), radius_m * std::sin(bearing_rad)};
 }

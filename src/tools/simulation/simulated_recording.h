@@ -13,7 +13,7 @@ struct SimulationOptions {
   unsigned seed = 1;
   double fps = 30.0;
   double speed = 1.0;  // times the scene's own
-  // Of the recording's fastest moment, tremor aside, in place of speed; 0: as speed says.
+  // The speed of the recording's fastest moment, tremor aside, in place of `speed`; 0: as `speed` says.
   double linear_speed_m_s = 0.0;
   double turn_rate_deg_s = 0.0;
   CameraIntrinsics intrinsics;  // width 0: those of the scene's sensor

@@ -19,10 +19,9 @@ struct Stage {
   std::string kind = "round";
 
   ParameterTable table() {
-    return {{"enabled", &enabled, 0.0, 0.0, "a flag"},
-            {"levels", &levels, 1, 5, "a count"},
-            {"distance_m", &distance_m, 0.01, 2.0, "a distance"},
-            {"kind", &kind, 0.0, 0.0, "a choice", {"round", "square"}}};
+    return {flag("enabled", &enabled, "a flag"), number("levels", &levels, 1, 5, "a count"),
+            number("distance_m", &distance_m, 0.01, 2.0, "a distance"),
+            choice("kind", &kind, {"round", "square"}, "a choice")};
   }
 };
 

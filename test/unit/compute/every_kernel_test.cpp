@@ -10,9 +10,9 @@
 #include "depth_fusion/registration/frame_registration.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
-#include "tools/simulation/simulated_recording.h"
 #include "map/map_args.h"
 #include "support/test_compute.h"
+#include "tools/simulation/simulated_recording.h"
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
 namespace depth_fusion {
@@ -183,7 +183,7 @@ TEST_F(EveryKernel, OfAListOfRequestsThatIsFull) {
   points_outside.fill(0, sizeof(int));
   TsdfFusion::Kernels(compute, map)
       .requestBlocks(preprocessor.process(roomFrame(0)), map, requests, count, points_outside,
-                     Pose::Identity(), {1, 5, kCapacity});
+                     Pose::Identity(), {1, 0.0f, 5, kCapacity});
   EXPECT_GT(count.read<int>(1).front(), kCapacity);
 }
 

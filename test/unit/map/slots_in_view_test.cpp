@@ -72,7 +72,8 @@ TEST_F(SlotsInViewOfTwoPlaces, AreAllThatHoldABlockInTheImage) {
       const double u = kCamera.fx * p_D.x() / p_D.z() + kCamera.cx,
                    v = kCamera.fy * p_D.y() / p_D.z() + kCamera.cy;
       const bool in_image = p_D.z() > 0.0 && u >= 0.0 && v >= 0.0 && u < kCamera.width && v < kCamera.height;
-      if (in_image) ASSERT_TRUE(seen.count(block.slot / SLOTS_PER_GROUP)) << turn_rad;
+      if (!in_image) continue;
+      ASSERT_TRUE(seen.count(block.slot / SLOTS_PER_GROUP)) << turn_rad;
     }
   }
 }

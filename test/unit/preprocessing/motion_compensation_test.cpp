@@ -3,10 +3,10 @@
 
 #include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
+#include "support/test_compute.h"
 #include "tools/simulation/renderer.h"
 #include "tools/simulation/scene_library.h"
 #include "tools/simulation/simulated_recording.h"
-#include "support/test_compute.h"
 
 namespace depth_fusion {
 namespace {
@@ -54,7 +54,7 @@ cv::Mat compensated(const cv::Mat& depth, const Vector6d& velocity, float readou
   return readImage(preprocessor.process(frame, velocity).raw_depth, kCamera);
 }
 
-// Of the pixels with depth in both, away from the furniture's edges.
+// The median over the pixels with depth in both, away from the furniture's edges.
 double medianDifference_m(const cv::Mat& a, const cv::Mat& b) {
   std::vector<float> differences;
   for (int v = 0; v < a.rows; ++v) {

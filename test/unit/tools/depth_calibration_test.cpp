@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "tools/plots/calibration_picture.h"
 #include "support/expect_error.h"
 #include "support/faulty_sensor.h"
 #include "support/test_compute.h"
+#include "tools/plots/calibration_picture.h"
 
 namespace depth_fusion {
 namespace {
@@ -17,12 +17,12 @@ constexpr int kFrames = 60;
 constexpr double kInterval_s = 0.1;
 const CameraIntrinsics kCamera{320, 240, 262.5, 262.5, 159.5, 119.5};
 
-// As far off as a bad structured-light sensor: 1 to 3 % of the depth at 1 m, curved and tilted.
+// A sensor as far off as a bad structured-light one: 1 to 3 % of the depth at 1 m, curved and tilted.
 double bent(double x, double y) {
   return 0.012 + 0.008 * (x - 0.5) - 0.03 * (x - 0.5) * (x - 0.5) + 0.02 * (y - 0.5) * (y - 0.5);
 }
 
-// As tracked: the poses off by some millimetres.
+// The recording as tracked: the poses off by some millimetres.
 std::vector<CalibrationFrame> framesOf(const FaultySensor& sensor, int count = kFrames) {
   std::vector<CalibrationFrame> frames;
   cv::RNG random(9);
@@ -40,7 +40,7 @@ struct GridError {
   double mean_per_m = 0.0, rms_per_m = 0.0, largest_sigmas = 0.0;
 };
 
-// Of the offsets that are observed.
+// The error of the offsets that are observed.
 GridError errorOf(const DepthCalibration& found, const std::function<double(double, double)>& truth) {
   GridError error;
   int count = 0;

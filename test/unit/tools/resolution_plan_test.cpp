@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/plots/memory_plot.h"
 #include "support/expect_error.h"
+#include "tools/plots/memory_plot.h"
 
 namespace depth_fusion {
 namespace {
@@ -16,7 +16,7 @@ PlanRequest requestOf(double box_m, double voxel_m, size_t limit_mib) {
   return request;
 }
 
-// As if a wall of 10 m^2 were mapped.
+// The plan as it were if a wall of 10 m^2 were mapped.
 ResolutionPlan wallPlan(const PlanRequest& request) {
   ResolutionPlan plan = resolutionChoices(request);
   for (PlanRow& row : plan.rows) {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "tools/simulation/simulated_recording.h"
 #include "support/expect_error.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "tools/calibration/depth_scale.h"
 #include "support/expect_error.h"
+#include "tools/calibration/depth_scale.h"
 
 namespace depth_fusion {
 namespace {

@@ -1,0 +1,1 @@
+"""The walls that scripts/check holds; layers.py says where they stand."""

@@ -1,0 +1,35 @@
+"""Every source is formatted as .clang-format says."""
+import re
+import shutil
+import subprocess
+
+from walls.tree import Result
+
+# Another version formats some lines otherwise.
+VERSION = "14"
+CHUNK = 60
+
+
+def installed_version():
+    if not shutil.which("clang-format"):
+        return None
+    text = subprocess.run(["clang-format", "--version"], capture_output=True, text=True, check=True).stdout
+    found = re.search(r"version (\d+)", text)
+    return found.group(1) if found else None
+
+
+def check(tree, _):
+    version = installed_version()
+    if version != VERSION:
+        installed = f"version {version}" if version else "none"
+        return Result([], f"skipped, for the sources are formatted by clang-format {VERSION}, and installed is {installed}")
+    paths = tree.files()
+    problems = []
+    for i in range(0, len(paths), CHUNK):
+        command = ["clang-format", "--dry-run", "--ferror-limit=1", *paths[i:i + CHUNK]]
+        output = subprocess.run(command, cwd=tree.root, capture_output=True, text=True, check=False).stderr
+        first = {}
+        for path, line in re.findall(r"^(\S+?):(\d+):\d+: \w+: code should be clang-formatted", output, re.M):
+            first.setdefault(path, line)
+        problems += [f"{path}:{line}: is not formatted; run clang-format -i {path}" for path, line in first.items()]
+    return Result(problems, f"{len(paths)} files")

@@ -1,0 +1,60 @@
+"""clang-tidy finds nothing. It is slow: a run looks at files that were never found clean, or changed since, as long as
+it may, and remembers those that are clean."""
+import concurrent.futures
+import json
+import os
+import re
+import shutil
+import subprocess
+import time
+
+from walls import commands
+from walls.tree import Green, Result
+
+PROBLEM = re.compile(r"^(\S+?:\d+):\d+: (?:warning|error): (.*)$", re.M)
+
+
+def write_commands(entries, folder):
+    """For clang, which cannot read the compiler's precompiled headers."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "compile_commands.json").write_text(json.dumps(entries))
+
+
+def tidy(tree, path, folder):
+    command = ["clang-tidy", "--quiet", "-p", folder, tree.root / path]
+    run = subprocess.run(command, cwd=tree.root, capture_output=True, text=True, check=False)
+    found = PROBLEM.findall(run.stdout)
+    if not found and run.returncode != 0:
+        found = [(path, (run.stdout + run.stderr).strip())]
+    return [f"{where.replace(f'{tree.root}/', '')}: {what}" for where, what in found]
+
+
+def check(tree, arguments):
+    if not shutil.which("clang-tidy"):
+        return Result([], "skipped, for clang-tidy is not installed")
+    try:
+        entries = commands.read(arguments.build)
+    except commands.NotConfigured as error:
+        return Result([str(error)], "nothing was looked at")
+    folder = arguments.build / "check"
+    write_commands(entries, folder)
+    compiled = {entry["file"] for entry in entries}
+    paths = [path for path in tree.files(("src",), (".cpp",)) if str(tree.root / path) in compiled]
+    rules = (tree.root / ".clang-tidy").read_text()
+    digests = {path: tree.digest(path, rules) for path in paths}
+    green = Green(folder / "tidy.json")
+    waiting = sorted((path for path in paths if digests[path] not in green),
+                     key=lambda path: (tree.root / path).stat().st_mtime, reverse=True)
+    end = time.monotonic() + arguments.tidy_seconds
+
+    def look(path):
+        return tidy(tree, path, folder) if time.monotonic() < end else None
+
+    problems, looked = {}, 0
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for path, found in zip(waiting, pool.map(look, waiting)):
+            looked += found is not None
+            problems.update(dict.fromkeys(found or []))
+            if found == []:
+                green.keep(digests[path])
+    return Result(list(problems), f"{len(paths)} files, {looked} of them looked at now, {len(waiting) - looked} left for later")
