@@ -9,7 +9,7 @@ inline vint wrap(vint block, int wrapped_origin, int blocks_per_axis) {
 
 inline vint in_window(vint block, int blocks_per_axis) { return AS_VUINT(block) < (uint)blocks_per_axis; }
 
-// Of blocks in the window, in the offsets; anything of others.
+// The addresses in the offsets of blocks of the window; of other blocks the result means nothing.
 inline vint window_address(vint x, vint y, vint z, const GridArgs grid) {
   const int n = grid.blocks_per_axis;
   return wrap(x, grid.wrapped_origin[0], n) +
@@ -21,5 +21,5 @@ inline vint slot_at(vint address, vint inside, __global const int* offsets) {
   return select((vint)(-1), GATHER(vint, offsets, select((vint)(0), address, inside)), inside);
 }
 
-// Where blocks' distances begin in the pool; of slot 0 where there is no block.
+// Where blocks' distances begin in the pool; where there is no block, those of slot 0.
 inline vint distances_of(vint slot) { return max(slot, (vint)(0)) * (2 * BLOCK_VOXELS); }

@@ -1,18 +1,16 @@
 #include "depth_fusion/tsdf_fusion/tsdf_fusion_parameters.h"
 
+#include "tsdf_fusion/filter_options.h"
+
 namespace depth_fusion {
 
 ParameterTable TsdfFusionParameters::table() {
   return {
-      {"rule", &rule, 0.0, 0.0, "how measurements change a voxel", {"kalman", "weighted", "average"}, true},
-      {"distance",
-       &distance,
-       0.0,
-       0.0,
+      {"rule", &rule, 0.0, 0.0, "how measurements change a voxel", fusionRules(), true},
+      {"distance", &distance, 0.0, 0.0,
        "from a voxel to the surface: along its ray, to the plane that the ray hits, or to the plane nearest "
        "to it",
-       {"projective", "plane", "refined"},
-       true},
+       fusionDistances(), true},
       {"gain_at_1m", &gain_at_1m, 1e-3, 1.0,
        "average: gain (the paper's w_k) of a measurement at 1 m; falls with the variance"},
       {"weight_at_1m", &weight_at_1m, 0.1, 255.0,

@@ -29,7 +29,7 @@ class ReconstructionPipeline {
   // The same with a pose from elsewhere in place of tracking; lost only if there is no depth.
   FrameResult processFrame(const RgbdFrame& frame, const Pose& T_W_D);
 
-  BlockSparseMap& map() { return map_; }
+  BlockMap& map() { return map_; }
   StageTimers& timers() { return timers_; }
   const PipelineParameters& parameters() const { return parameters_; }
   size_t keyframeCount() const { return tracker_.keyframeCount(); }
@@ -55,7 +55,7 @@ class ReconstructionPipeline {
 
   PipelineParameters parameters_;
   StageTimers timers_;
-  BlockSparseMap map_;
+  BlockMap map_;
   TextureOdometry odometry_;
   Mapper mapper_;
   std::unique_ptr<ComputeContext> tracking_queue_;

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "tools/plots/line_plot.h"
 #include "common/io/image_file.h"
 #include "common/io/text_file.h"
+#include "tools/plots/line_plot.h"
 
 namespace depth_fusion {
 namespace {
@@ -21,7 +21,7 @@ struct StageTimes {
 
 struct Outcome {
   MapParameters map;
-  BlockSparseMap::Usage usage;
+  BlockMap::Usage usage;
   size_t frames = 0, lost = 0;
   size_t left_out = 0;  // blocks that the pool had no room for
   StageTimes times;

@@ -4,7 +4,6 @@
 #include <iostream>
 
 #include "depth_fusion/common/error.h"
-#include "tools/evaluation/block_count.h"
 #include "depth_fusion/pipeline/posed_preprocessor.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/trajectory_file.h"
@@ -12,6 +11,7 @@
 #include "depth_fusion/surface_mesh/ply.h"
 #include "pipeline/depth_in_range.h"
 #include "ros/bags/open_recording.h"
+#include "tools/evaluation/block_count.h"
 
 namespace depth_fusion {
 namespace {
@@ -120,7 +120,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
     PipelineParameters parameters = options.parameters;
     parameters.map = row.map;
     parameters.map.pool_mib = poolMebibytes(row);
-    std::unique_ptr<BlockSparseMap> map;
+    std::unique_ptr<BlockMap> map;
     std::unique_ptr<Mapper> mapper;
     std::unique_ptr<PosedPreprocessor> preprocessor;
     StageTimers timers;
@@ -128,7 +128,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
         "trying N " + std::to_string(row.map.blocks_per_axis) + ", M " + std::to_string(row.map.block_size),
         [&](const RgbdFrame& frame, const Pose& T_W_D) {
           if (!map) {
-            map = std::make_unique<BlockSparseMap>(compute, parameters.map);
+            map = std::make_unique<BlockMap>(compute, parameters.map);
             mapper = std::make_unique<Mapper>(compute, *map, parameters, frame.intrinsics);
             preprocessor = std::make_unique<PosedPreprocessor>(compute, parameters, frame.intrinsics);
           }

@@ -2,14 +2,14 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "depth_fusion/pipeline/frame_tracker.h"
+#include "ros/conversions/status_messages.h"
 #include "ros/in_process/fusion_link.h"
-#include "ros/output/pose_publisher.h"
-#include "ros/input/rgbd_subscriber.h"
 #include "ros/in_process/shared_map.h"
 #include "ros/in_process/skipped_frames.h"
-#include "ros/nodelets/stage_nodelet.h"
-#include "ros/conversions/status_messages.h"
 #include "ros/in_process/worker.h"
+#include "ros/input/rgbd_subscriber.h"
+#include "ros/nodelets/stage_nodelet.h"
+#include "ros/output/pose_publisher.h"
 
 namespace depth_fusion {
 
@@ -289,11 +289,12 @@ void IcpTrackingNodelet::publish(const TexturedFrame& frame, const TrackingResul
 const ModelView& IcpTrackingNodelet::render(const Pose& T_W_D) {
   const std::shared_ptr<SharedMap> map = map_->map.lock();
   check(map != nullptr, "the map is gone; load tsdf_fusion again");
-  StageTimers timers;
-  const std::lock_guard<std::mutex> lock(map->mutex);
-  Mapper& mapper = map->mapper(camera_);
-  mapper.render(T_W_D, timers);
-  rendered_ = mapper.renderer().view();
+  map->locked([&](FusedMap& fused) {
+    StageTimers timers;
+    Mapper& mapper = fused.mapper(camera_);
+    mapper.render(T_W_D, timers);
+    rendered_ = mapper.renderer().view();
+  });
   return *rendered_;
 }
 

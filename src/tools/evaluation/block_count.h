@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
 
@@ -20,8 +20,8 @@ class SelectedBlocks {
   void add(const DepthFrame& frame, const Pose& T_W_D);
 
   size_t claimed() const { return claimed_; }
-  // Those that fusion keeps of them: a claim needs a point of the truncation band in the block, data needs
-  // one of its voxels there, and those end a voxel short of the block's far sides.
+  // How many of them fusion keeps: a claim needs a point of the truncation band in the block, data needs one
+  // of its voxels there, and the voxels end one short of the block's far sides.
   size_t kept() const;
 
  private:
