@@ -1,5 +1,5 @@
-// Bookkeeping of blocks. A work-item is one block (assign_blocks, withdraw_requests) or 16 voxels
-// (clear_blocks, clear_colors).
+// Bookkeeping of blocks. A work-item is one block (assign_blocks, withdraw_requests) or as many bytes of it as
+// 16 voxels have (clear_blocks).
 //   offsets        slot or BLOCK_EMPTY a block of the window
 //   block_indices  index and in-use flag a slot
 //   requests       index a block
@@ -17,20 +17,16 @@ __kernel void assign_blocks(__global int* offsets, __global int4* block_indices,
   block_states[slot] = 0;
 }
 
-__kernel void clear_blocks(__global char* voxels, __global const int* slots, int count) {
+// Copies a cleared block of a layer to the slots, 16 bytes of each of its bytes_per_voxel M^3 bytes.
+__kernel void clear_blocks(__global uchar* layer, __global const uchar* cleared_block, int bytes_per_voxel,
+                           __global const int* slots, int count) {
   const int items_per_block = BLOCK_VOXELS / 16;
   const int i = get_global_id(0) / items_per_block;
   const int part = get_global_id(0) % items_per_block;
   if (i >= count) return;
-  vstore16((char16)(TSDF_CHI), part, voxels + block_distances(slots[i]));
-  vstore16((char16)(0), part, voxels + block_certainties(slots[i]));
-}
-
-__kernel void clear_colors(__global uint* colors, __global const int* slots, int count) {
-  const int items_per_block = BLOCK_VOXELS / 16;
-  const int i = get_global_id(0) / items_per_block;
-  const int part = get_global_id(0) % items_per_block;
-  if (i < count) vstore16((uint16)(0), part, colors + block_colors(slots[i]));
+  __global uchar* block = layer + (size_t)slots[i] * BLOCK_VOXELS * bytes_per_voxel;
+  for (int k = part; k < items_per_block * bytes_per_voxel; k += items_per_block)
+    vstore16(vload16(k, cleared_block), k, block);
 }
 
 __kernel void withdraw_requests(__global int* offsets, __global const int4* requests, int count,

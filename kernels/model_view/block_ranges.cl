@@ -14,7 +14,7 @@ typedef struct {
   float8 lowest, highest;
 } Extents;
 
-// Of boxes along the axes of frame D. One that reaches behind the camera covers what its part ahead of it
+// The pixels that boxes along the axes of frame D cover. A box that reaches behind the camera covers what its part ahead of it
 // covers.
 inline Extents pixel_extents(float8 centre, float reach, const Extents depth, float focal_length,
                              float image_centre) {

@@ -50,9 +50,9 @@ inline vfloat doubt(vint certainty, const FusionArgs args) {
   return TO_VFLOAT(certainty) * args.free_space_kept;
 }
 
-#else
+#elif FUSION_RULE == FUSION_KALMAN
 
-// Bits of a variance so large, 1, that the measurement's takes its place.
+// Bits of the variance of a voxel that is not known: 1, so large that the measurement's takes its place.
 #define UNKNOWN_VARIANCE_BITS 0x3f800000
 
 inline vint variance_bits(vint certainty) { return VARIANCE_BITS_MAX - (certainty - 1) * VARIANCE_BITS_STEP; }
@@ -77,4 +77,6 @@ inline vfloat doubt(vint certainty, const FusionArgs args) {
   return certainty_of(AS_VFLOAT(variance_bits(certainty)) / args.free_space_kept);
 }
 
+#else
+#error "there is no such FUSION_RULE"
 #endif

@@ -9,8 +9,8 @@
 #include "color_fusion/exposure.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/compute/device_image.h"
-#include "geometry/kernel_args.h"
 #include "frames/sensor_args.h"
+#include "geometry/kernel_args.h"
 
 namespace depth_fusion {
 namespace {
@@ -63,14 +63,18 @@ struct ColorFusion::Images {
   }
 };
 
-ColorFusion::ColorFusion(ComputeContext& compute, BlockSparseMap& map,
-                         const ColorFusionParameters& parameters)
+ColorFusion::ColorFusion(ComputeContext& compute, BlockMap& map, const ColorFusionParameters& parameters)
     : compute_(compute),
       map_(map),
       parameters_(parameters),
       kernels_(std::make_unique<Kernels>(compute, map.parameters())) {
   validate(parameters_.table());
-  check(map.parameters().color, "colour cannot be fused into a map without colour; set map/color");
+  check(map.hasLayer(kColorLayer), "colour cannot be fused into a map without colour; set map/color");
+}
+
+std::unique_ptr<ColorFusion> ColorFusion::create(ComputeContext& compute, BlockMap& map,
+                                                 const ColorFusionParameters& parameters) {
+  return map.hasLayer(kColorLayer) ? std::make_unique<ColorFusion>(compute, map, parameters) : nullptr;
 }
 
 ColorFusion::~ColorFusion() = default;

@@ -25,20 +25,20 @@ void ColorFusion::Kernels::ratePixels(DeviceBuffer& image, const DeviceBuffer& d
               toArgs(color_camera), max_relative_step);
 }
 
-void ColorFusion::Kernels::sampleSurface(const DepthLevel& depth, BlockSparseMap& map, DeviceBuffer& points,
+void ColorFusion::Kernels::sampleSurface(const DepthLevel& depth, BlockMap& map, DeviceBuffer& points,
                                          DeviceBuffer& found, const Pose& T_W_D, int stride_px) {
   const int columns = depth.camera.width / stride_px;
   const int samples = columns * (depth.camera.height / stride_px);
-  sample_.run(samples, points, found, depth.depth, map.offsets(), map.colors(), toArgs(depth.camera),
-              toArgs(T_W_D), gridArgs(map), stride_px, columns, samples);
+  sample_.run(samples, points, found, depth.depth, map.offsets(), map.layer(kColorLayer),
+              toArgs(depth.camera), toArgs(T_W_D), gridArgs(map), stride_px, columns, samples);
 }
 
-void ColorFusion::Kernels::integrateColor(BlockSparseMap& map, const DeviceBuffer& visible,
-                                          size_t visible_count, const DeviceBuffer& image,
-                                          const DeviceBuffer& depth_C, const CameraIntrinsics& color_camera,
-                                          const Pose& T_C_W, const Pose& T_A_W, const SensorArgs& sensor,
+void ColorFusion::Kernels::integrateColor(BlockMap& map, const DeviceBuffer& visible, size_t visible_count,
+                                          const DeviceBuffer& image, const DeviceBuffer& depth_C,
+                                          const CameraIntrinsics& color_camera, const Pose& T_C_W,
+                                          const Pose& T_A_W, const SensorArgs& sensor,
                                           const ColorFusionArgs& args) {
-  integrate_.run(visible_count * items_per_block_, map.colors(), map.voxels(), visible,
+  integrate_.run(visible_count * items_per_block_, map.layer(kColorLayer), map.layer(kTsdfLayer), visible,
                  static_cast<int>(visible_count), map.blockIndices(), map.blockStates(), image, depth_C,
                  toArgs(color_camera), toArgs(T_C_W), toArgs(T_A_W), gridArgs(map), sensor, args);
 }

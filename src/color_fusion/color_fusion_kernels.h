@@ -18,10 +18,10 @@ class ColorFusion::Kernels {
   void ratePixels(DeviceBuffer& image, const DeviceBuffer& depth_C, const CameraIntrinsics& color_camera,
                   float max_relative_step);
   // points, found: one sample of each stride_px x stride_px pixels, row by row.
-  void sampleSurface(const DepthLevel& depth, BlockSparseMap& map, DeviceBuffer& points, DeviceBuffer& found,
+  void sampleSurface(const DepthLevel& depth, BlockMap& map, DeviceBuffer& points, DeviceBuffer& found,
                      const Pose& T_W_D, int stride_px);
   // T_C_W: of the colour camera by depth and calibration; T_A_W: where its colours fit the map's.
-  void integrateColor(BlockSparseMap& map, const DeviceBuffer& visible, size_t visible_count,
+  void integrateColor(BlockMap& map, const DeviceBuffer& visible, size_t visible_count,
                       const DeviceBuffer& image, const DeviceBuffer& depth_C,
                       const CameraIntrinsics& color_camera, const Pose& T_C_W, const Pose& T_A_W,
                       const SensorArgs& sensor, const ColorFusionArgs& args);

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <string>
-#include <tuple>
 
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 #include "shared/types.h"
 
 namespace depth_fusion {
@@ -14,12 +13,7 @@ struct BlockRequest {
   int x, y, z, unused;
 };
 
-// The order of lists of blocks: by z, then y, then x.
-inline bool before(const BlockSparseMap::BlockIndex& a, const BlockSparseMap::BlockIndex& b) {
-  return std::make_tuple(a.z(), a.y(), a.x()) < std::make_tuple(b.z(), b.y(), b.x());
-}
-
-GridArgs gridArgs(const BlockSparseMap& map);
+GridArgs gridArgs(const BlockMap& map);
 
 // Work-items a block of the kernels that include shared/block_items.h.
 inline size_t itemsPerBlock(const MapParameters& map, int simd_width) {

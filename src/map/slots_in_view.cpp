@@ -35,17 +35,17 @@ std::array<HalfSpace, 6> viewOf(const CameraIntrinsics& camera, const Pose& T_D_
 
 }  // namespace
 
-SlotsInView::SlotsInView(ComputeContext& compute, const BlockSparseMap& map)
+SlotsInView::SlotsInView(ComputeContext& compute, const BlockMap& map)
     : groups_(compute, (map.usage().capacity + SLOTS_PER_GROUP - 1) / SLOTS_PER_GROUP * sizeof(int),
               "the list of slots in view") {}
 
-void SlotsInView::list(const BlockSparseMap& map, const CameraIntrinsics& camera, const Pose& T_D_W,
+void SlotsInView::list(const BlockMap& map, const CameraIntrinsics& camera, const Pose& T_D_W,
                        double max_range_m) {
   const MapParameters& parameters = map.parameters();
   const double block_m = static_cast<double>(parameters.voxel_size_m) * parameters.block_size;
   const std::array<HalfSpace, 6> view = viewOf(camera, T_D_W, max_range_m);
   listed_.clear();
-  const std::vector<BlockSparseMap::BlockBox>& boxes = map.groupBoxes();
+  const std::vector<BlockBox>& boxes = map.slots().groupBoxes();
   for (size_t group = 0; group < boxes.size(); ++group) {
     if (boxes[group].isEmpty()) continue;
     const Eigen::Vector3d first = boxes[group].min().cast<double>();

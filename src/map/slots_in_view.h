@@ -5,7 +5,7 @@
 #include "depth_fusion/compute/device_buffer.h"
 #include "depth_fusion/geometry/camera_intrinsics.h"
 #include "depth_fusion/geometry/pose.h"
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 
 namespace depth_fusion {
 
@@ -14,11 +14,11 @@ namespace depth_fusion {
 class SlotsInView {
  public:
   // For maps of as many slots as `map` has at most.
-  SlotsInView(ComputeContext& compute, const BlockSparseMap& map);
+  SlotsInView(ComputeContext& compute, const BlockMap& map);
 
   // Lists the groups of which some block may come within max_range_m of depth in the image. The kernels that
   // ran over the last list are done.
-  void list(const BlockSparseMap& map, const CameraIntrinsics& camera, const Pose& T_D_W, double max_range_m);
+  void list(const BlockMap& map, const CameraIntrinsics& camera, const Pose& T_D_W, double max_range_m);
 
   const DeviceBuffer& groups() const { return groups_; }
   int groupCount() const { return static_cast<int>(listed_.size()); }

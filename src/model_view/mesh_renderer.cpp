@@ -17,7 +17,7 @@ constexpr int kNoPlace = -1;
 
 }  // namespace
 
-MeshRenderer::MeshRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera)
+MeshRenderer::MeshRenderer(ComputeContext& compute, BlockMap& map, const CameraIntrinsics& camera)
     : compute_(compute),
       map_(map),
       mesh_(compute, map, kMinCertainty, kMaxBatchBlocks),
@@ -57,7 +57,8 @@ std::vector<int> MeshRenderer::listBlocks(const ModelView& view, const Range& ra
   kernels_.listSurfaceBlocks(map_, listed_, count_, view, range.min_m, range.max_m);
   const std::vector<int> slots = listed_.read<int>(count_.read<int>(1).front());
   std::vector<std::pair<uint64_t, int>> ordered;
-  for (const int slot : slots) ordered.emplace_back(meshBlock(map_, map_.blockOf(slot)).morton_code, slot);
+  for (const int slot : slots)
+    ordered.emplace_back(meshBlock(map_, map_.slots().blockOf(slot)).morton_code, slot);
   std::sort(ordered.begin(), ordered.end());
   std::vector<int> result;
   for (const auto& [morton_code, slot] : ordered) result.push_back(slot);

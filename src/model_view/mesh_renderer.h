@@ -13,7 +13,7 @@ namespace depth_fusion {
 class MeshRenderer {
  public:
   // Keeps a reference to the map.
-  MeshRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera);
+  MeshRenderer(ComputeContext& compute, BlockMap& map, const CameraIntrinsics& camera);
 
   // Fills the view, whose pose is set, with what lies between min_range_m and max_range_m.
   void render(ModelView& view, float min_range_m, float max_range_m, StageTimers& timers);
@@ -29,16 +29,16 @@ class MeshRenderer {
 
   // Slots of the blocks to polygonise; those near each other are mostly near in the list.
   std::vector<int> listBlocks(const ModelView& view, const Range& range);
-  // Those of begin to end, in two halves if they are too many for a batch.
+  // Draws the blocks from begin to end, in two halves if they are too many for a batch.
   void drawBlocks(const int* begin, const int* end, ModelView& view, const Range& range);
-  // Nothing if they are too many.
+  // Returns nothing if they are too many.
   std::optional<Batch> polygonise(const int* begin, const int* end);
   // Numbers the batch's vertices and triangles, block after block.
   void number(Batch& batch);
   void rasterise(const Batch& batch, ModelView& view, const Range& range);
 
   ComputeContext& compute_;
-  BlockSparseMap& map_;
+  BlockMap& map_;
   SurfaceMeshKernels mesh_;
   MeshRendererKernels kernels_;
   size_t max_cores_;  // of a batch

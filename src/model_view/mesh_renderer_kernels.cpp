@@ -13,7 +13,7 @@ TransformArgs fromWorld(const ModelView& view) { return toArgs(Pose(view.T_W_D.i
 
 }  // namespace
 
-MeshRendererKernels::MeshRendererKernels(ComputeContext& compute, const BlockSparseMap& map)
+MeshRendererKernels::MeshRendererKernels(ComputeContext& compute, const BlockMap& map)
     : in_view_(compute, map),
       list_(compute, kBlocks, "list_surface_blocks", blockSizeOption(map.parameters())),
       place_cores_(compute, kBlocks, "place_cores", blockSizeOption(map.parameters())),
@@ -26,23 +26,22 @@ MeshRendererKernels::MeshRendererKernels(ComputeContext& compute, const BlockSpa
       normals_(compute, kTriangles, "rasterise_normals"),
       resolve_(compute, kTriangles, "resolve_depth") {}
 
-void MeshRendererKernels::listSurfaceBlocks(BlockSparseMap& map, DeviceBuffer& listed, DeviceBuffer& count,
+void MeshRendererKernels::listSurfaceBlocks(BlockMap& map, DeviceBuffer& listed, DeviceBuffer& count,
                                             const ModelView& view, float min_range_m, float max_range_m) {
   in_view_.list(map, view.camera, view.T_W_D.inverse(), max_range_m);
-  list_.run(in_view_.slots(), in_view_.groups(), in_view_.groupCount(), map.slotBound(), map.blockIndices(),
-            map.blockStates(), listed, count, toArgs(view.camera), fromWorld(view), gridArgs(map),
-            min_range_m, max_range_m);
+  list_.run(in_view_.slots(), in_view_.groups(), in_view_.groupCount(), map.slots().bound(),
+            map.blockIndices(), map.blockStates(), listed, count, toArgs(view.camera), fromWorld(view),
+            gridArgs(map), min_range_m, max_range_m);
 }
 
-void MeshRendererKernels::placeMembers(BlockSparseMap& map, DeviceBuffer& members, DeviceBuffer& places,
+void MeshRendererKernels::placeMembers(BlockMap& map, DeviceBuffer& members, DeviceBuffer& places,
                                        DeviceBuffer& count, int cores) {
   place_cores_.run(cores, members, places, cores);
   place_lenders_.run(cores, members, places, count, map.blockIndices(), map.offsets(), cores, gridArgs(map));
 }
 
-void MeshRendererKernels::describeMembers(BlockSparseMap& map, DeviceBuffer& blocks,
-                                          const DeviceBuffer& members, const DeviceBuffer& places, int cores,
-                                          int count) {
+void MeshRendererKernels::describeMembers(BlockMap& map, DeviceBuffer& blocks, const DeviceBuffer& members,
+                                          const DeviceBuffer& places, int cores, int count) {
   describe_.run(count, blocks, members, places, map.blockIndices(), map.offsets(), cores, count,
                 gridArgs(map));
 }

@@ -9,14 +9,14 @@ namespace depth_fusion {
 
 class MeshRendererKernels {
  public:
-  MeshRendererKernels(ComputeContext& compute, const BlockSparseMap& map);
+  MeshRendererKernels(ComputeContext& compute, const BlockMap& map);
 
-  void listSurfaceBlocks(BlockSparseMap& map, DeviceBuffer& listed, DeviceBuffer& count,
-                         const ModelView& view, float min_range_m, float max_range_m);
+  void listSurfaceBlocks(BlockMap& map, DeviceBuffer& listed, DeviceBuffer& count, const ModelView& view,
+                         float min_range_m, float max_range_m);
   // `count` holds the number of cores before, that of all members after.
-  void placeMembers(BlockSparseMap& map, DeviceBuffer& members, DeviceBuffer& places, DeviceBuffer& count,
+  void placeMembers(BlockMap& map, DeviceBuffer& members, DeviceBuffer& places, DeviceBuffer& count,
                     int cores);
-  void describeMembers(BlockSparseMap& map, DeviceBuffer& blocks, const DeviceBuffer& members,
+  void describeMembers(BlockMap& map, DeviceBuffer& blocks, const DeviceBuffer& members,
                        const DeviceBuffer& places, int cores, int count);
   void numberMembers(DeviceBuffer& blocks, const DeviceBuffer& firsts, int count);
   void clearPlaces(const DeviceBuffer& members, DeviceBuffer& places, int count);

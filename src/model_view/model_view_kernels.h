@@ -10,15 +10,15 @@ namespace depth_fusion {
 
 class ModelViewRenderer::Kernels {
  public:
-  Kernels(ComputeContext& compute, const BlockSparseMap& map);
+  Kernels(ComputeContext& compute, const BlockMap& map);
 
-  void splatBlockRanges(BlockSparseMap& map, DeviceBuffer& nearest, DeviceBuffer& occupied,
-                        const ModelView& view, const RayRangeArgs& range);
-  void raycast(BlockSparseMap& map, const DeviceBuffer& nearest, const DeviceBuffer& occupied,
-               ModelView& view, const RayRangeArgs& range);
+  void splatBlockRanges(BlockMap& map, DeviceBuffer& nearest, DeviceBuffer& occupied, const ModelView& view,
+                        const RayRangeArgs& range);
+  void raycast(BlockMap& map, const DeviceBuffer& nearest, const DeviceBuffer& occupied, ModelView& view,
+               const RayRangeArgs& range);
   // picture: four bytes a pixel.
   void shadeView(const ModelView& view, DeviceBuffer& picture);
-  void colorView(BlockSparseMap& map, const ModelView& view, DeviceBuffer& picture);
+  void colorView(BlockMap& map, const ModelView& view, DeviceBuffer& picture);
 
  private:
   SlotsInView in_view_;

@@ -30,8 +30,8 @@ std::shared_ptr<ModelView> makeView(ComputeContext& compute, const CameraIntrins
 
 }  // namespace
 
-ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map,
-                                     const CameraIntrinsics& camera, ModelViewParameters parameters)
+ModelViewRenderer::ModelViewRenderer(ComputeContext& compute, BlockMap& map, const CameraIntrinsics& camera,
+                                     ModelViewParameters parameters)
     : compute_(compute),
       map_(map),
       camera_(parameters.half_size ? halved(camera) : camera),
@@ -77,7 +77,7 @@ cv::Mat ModelViewRenderer::shadedPicture() {
 }
 
 cv::Mat ModelViewRenderer::coloredPicture() {
-  check(map_.parameters().color, "a map without colour has no coloured view; set map/color");
+  check(map_.hasLayer(kColorLayer), "a map without colour has no coloured view; set map/color");
   allocatePicture();
   kernels_->colorView(map_, *view(), picture_);
   return readPicture();

@@ -4,15 +4,13 @@
 
 namespace depth_fusion {
 
-Mapper::Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParameters& parameters,
+Mapper::Mapper(ComputeContext& compute, BlockMap& map, const PipelineParameters& parameters,
                const CameraIntrinsics& camera)
     : parameters_(parameters),
       map_(map),
       fusion_(compute, map, parameters.tsdf_fusion),
-      renderer_(compute, map, camera, parameters.model_view) {
-  if (map.parameters().color)
-    color_fusion_ = std::make_unique<ColorFusion>(compute, map, parameters.color_fusion);
-}
+      color_fusion_(ColorFusion::create(compute, map, parameters.color_fusion)),
+      renderer_(compute, map, camera, parameters.model_view) {}
 
 void Mapper::setParameters(const PipelineParameters& parameters) {
   fusion_.setParameters(parameters.tsdf_fusion);
@@ -23,22 +21,19 @@ void Mapper::setParameters(const PipelineParameters& parameters) {
 MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D,
                            StageTimers& timers) {
   MappingResult result;
-  if (map_.usage().blocks == 0) map_.reset(windowCentre(frame, parameters_.depthRange(), T_W_D));
+  if (map_.slots().used() == 0) map_.placeWindow(windowCentre(frame, parameters_.depthRange(), T_W_D));
   result.fusion = fusion_.integrate(depth, T_W_D, timers);
   if (color_fusion_) {
     result.color = color_fusion_->integrate(frame, depth, T_W_D, fusion_.visibleBlocks(),
                                             result.fusion.blocks_updated, timers);
   }
+  if (map_.isFollowed()) map_.noteUpdated(fusion_.visibleBlocks().read<int>(result.fusion.blocks_updated));
   return result;
 }
 
 const ModelView& Mapper::render(const Pose& T_W_D, StageTimers& timers) {
   const DepthRange range = parameters_.depthRange();
   return renderer_.render(T_W_D, range.min_m, range.max_m, timers);
-}
-
-std::vector<int> Mapper::updatedBlocks(const MappingResult& last) const {
-  return fusion_.visibleBlocks().read<int>(last.fusion.blocks_updated);
 }
 
 std::string leftOutReason(const MappingResult& result) {

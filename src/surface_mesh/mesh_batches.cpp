@@ -31,9 +31,9 @@ uint64_t nextAlong(uint64_t code, int axis) {
 
 }  // namespace
 
-MeshBlock meshBlock(const BlockSparseMap& map, const BlockSparseMap::BlockIndex& index) {
+MeshBlock meshBlock(const BlockMap& map, const BlockIndex& index) {
   MeshBlock block;
-  block.morton_code = mortonCode(index - map.origin());
+  block.morton_code = mortonCode(index - map.window().origin);
   return block;
 }
 
@@ -42,23 +42,22 @@ void sortAlongMortonCurve(std::vector<MeshBlock>& blocks) {
             [](const MeshBlock& a, const MeshBlock& b) { return a.morton_code < b.morton_code; });
 }
 
-std::vector<MeshBlock> mortonOrderedBlocks(const BlockSparseMap& map) {
+std::vector<MeshBlock> mortonOrderedBlocks(const BlockMap& map) {
   std::vector<MeshBlock> ordered;
-  for (const BlockSparseMap::Block& block : map.blocks()) ordered.push_back(meshBlock(map, block.index));
+  for (const SlotTable::Block& block : map.slots().blocks()) ordered.push_back(meshBlock(map, block.index));
   sortAlongMortonCurve(ordered);
   return ordered;
 }
 
-MeshBlockArgs blockArgs(const BlockSparseMap& map, const MeshBlock& block) {
+MeshBlockArgs blockArgs(const BlockMap& map, const MeshBlock& block) {
   MeshBlockArgs args{};
   for (int axis = 0; axis < 3; ++axis)
-    args.index[axis] = map.origin()[axis] + gathered(block.morton_code >> axis);
+    args.index[axis] = map.window().origin[axis] + gathered(block.morton_code >> axis);
   args.first_vertex = block.first_vertex;
   return args;
 }
 
-MeshBatcher::MeshBatcher(const BlockSparseMap& map, const std::vector<MeshBlock>& blocks,
-                         const BatchLimits& limits)
+MeshBatcher::MeshBatcher(const BlockMap& map, const std::vector<MeshBlock>& blocks, const BatchLimits& limits)
     : map_(map), blocks_(blocks), limits_(limits), places_(blocks.size(), -1) {}
 
 MeshBatch MeshBatcher::next() {

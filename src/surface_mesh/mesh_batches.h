@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 #include "shared/types.h"
 
 namespace depth_fusion {
@@ -20,13 +20,13 @@ struct MeshBlock {
 };
 
 // All the blocks of the map along the Morton curve, on which neighbours are mostly near each other.
-std::vector<MeshBlock> mortonOrderedBlocks(const BlockSparseMap& map);
+std::vector<MeshBlock> mortonOrderedBlocks(const BlockMap& map);
 
-MeshBlock meshBlock(const BlockSparseMap& map, const BlockSparseMap::BlockIndex& index);
+MeshBlock meshBlock(const BlockMap& map, const BlockIndex& index);
 void sortAlongMortonCurve(std::vector<MeshBlock>& blocks);
 
 // Index and first vertex; the rest is for the batch to fill in.
-MeshBlockArgs blockArgs(const BlockSparseMap& map, const MeshBlock& block);
+MeshBlockArgs blockArgs(const BlockMap& map, const MeshBlock& block);
 
 struct BatchLimits {
   size_t blocks = 0;  // at least 8: a block and its neighbours
@@ -47,7 +47,7 @@ struct MeshBatch {
 class MeshBatcher {
  public:
   // Keeps references. `blocks` is in Morton order, with counts and first vertices.
-  MeshBatcher(const BlockSparseMap& map, const std::vector<MeshBlock>& blocks, const BatchLimits& limits);
+  MeshBatcher(const BlockMap& map, const std::vector<MeshBlock>& blocks, const BatchLimits& limits);
 
   bool done() const { return next_ == blocks_.size(); }
   MeshBatch next();
@@ -63,7 +63,7 @@ class MeshBatcher {
   void fill(MeshBatch& batch, size_t core_begin, const std::vector<Neighbours>& core,
             const std::vector<size_t>& members);
 
-  const BlockSparseMap& map_;
+  const BlockMap& map_;
   const std::vector<MeshBlock>& blocks_;
   BatchLimits limits_;
   std::vector<int> places_;  // in the current batch, -1 = not a member

@@ -10,8 +10,6 @@
 namespace depth_fusion {
 namespace {
 
-using BlockIndex = BlockSparseMap::BlockIndex;
-
 int floorDivision(int a, int b) { return a >= 0 ? a / b : -((-a - 1) / b) - 1; }
 
 MeshChunkIndex chunkOf(const BlockIndex& block, int blocks_per_axis) {
@@ -47,9 +45,9 @@ size_t MeshChunks::Hash::operator()(const MeshChunkIndex& chunk) const {
   return static_cast<size_t>(hash);
 }
 
-MeshChunks::MeshChunks(ComputeContext& compute, BlockSparseMap& map, const SurfaceMeshParameters& parameters,
+MeshChunks::MeshChunks(ComputeContext& compute, BlockMap& map, const SurfaceMeshParameters& parameters,
                        int blocks_per_axis)
-    : map_(map), blocks_per_axis_(blocks_per_axis) {
+    : map_(map), changes_(map.follow()), blocks_per_axis_(blocks_per_axis) {
   SurfaceMeshParameters checked = parameters;
   validate(checked.table());
   check(blocks_per_axis > 0, "a chunk of the mesh needs at least one block per axis");
@@ -59,33 +57,42 @@ MeshChunks::MeshChunks(ComputeContext& compute, BlockSparseMap& map, const Surfa
 
 MeshChunks::~MeshChunks() = default;
 
-void MeshChunks::noteUpdated(const std::vector<int>& slots) {
-  for (const int slot : slots) noteAround(map_.blockOf(slot));
+void MeshChunks::follow() {
+  const MapChanges changes = changes_.take();
+  if (changes.generation != generation_) forgetAll();
+  generation_ = changes.generation;
+  if (changes.complete) noteShown();
+  for (const BlockIndex& block : changes.updated) noteAround(block);
+  for (const BlockIndex& block : changes.released) noteAround(block);
 }
 
 void MeshChunks::noteAll() {
-  for (const MeshChunkIndex& chunk : has_surface_) {
-    if (is_changed_.insert(chunk).second) changed_.push_back(chunk);
-  }
-  for (int slot = 0; slot < map_.slotBound(); ++slot) {
-    if (map_.inUse(slot)) noteAround(map_.blockOf(slot));
-  }
+  noteShown();
+  for (const SlotTable::Block& block : map_.slots().blocks()) noteAround(block.index);
 }
 
 void MeshChunks::noteNext(size_t count) {
   for (; count > 0; --count) {
     if (in_turn_.empty()) in_turn_.assign(has_surface_.begin(), has_surface_.end());
     if (in_turn_.empty()) return;
-    if (is_changed_.insert(in_turn_.back()).second) changed_.push_back(in_turn_.back());
+    note(in_turn_.back());
     in_turn_.pop_back();
   }
 }
 
-void MeshChunks::noteReset() {
+void MeshChunks::forgetAll() {
   changed_.clear();
   is_changed_.clear();
   has_surface_.clear();
   in_turn_.clear();
+}
+
+void MeshChunks::noteShown() {
+  for (const MeshChunkIndex& chunk : has_surface_) note(chunk);
+}
+
+void MeshChunks::note(const MeshChunkIndex& chunk) {
+  if (is_changed_.insert(chunk).second) changed_.push_back(chunk);
 }
 
 void MeshChunks::noteAround(const BlockIndex& block) {
@@ -93,14 +100,13 @@ void MeshChunks::noteAround(const BlockIndex& block) {
   const MeshChunkIndex last = chunkOf(block + BlockIndex::Ones(), blocks_per_axis_);
   for (int z = first[2]; z <= last[2]; ++z) {
     for (int y = first[1]; y <= last[1]; ++y) {
-      for (int x = first[0]; x <= last[0]; ++x) {
-        if (is_changed_.insert({x, y, z}).second) changed_.push_back({x, y, z});
-      }
+      for (int x = first[0]; x <= last[0]; ++x) note({x, y, z});
     }
   }
 }
 
 std::vector<MeshChunk> MeshChunks::takeChanged(size_t max_count) {
+  follow();
   std::vector<MeshChunk> chunks;
   for (Extraction& extraction : takeExtractions(max_count)) {
     TriangleMesh mesh = extract(extraction);
@@ -120,9 +126,9 @@ std::vector<MeshChunks::Extraction> MeshChunks::takeExtractions(size_t max_count
     extractions.push_back({changed_.front(), {}});
     changed_.pop_front();
   }
-  for (int slot = 0; slot < map_.slotBound(); ++slot) {
-    if (!map_.inUse(slot)) continue;
-    const BlockIndex& block = map_.blockOf(slot);
+  for (int slot = 0; slot < map_.slots().bound(); ++slot) {
+    if (!map_.slots().inUse(slot)) continue;
+    const BlockIndex& block = map_.slots().blockOf(slot);
     forEachOwner(block, blocks_per_axis_, [&](const MeshChunkIndex& chunk, bool lends_only) {
       const auto found = place.find(chunk);
       if (found == place.end()) return;

@@ -9,7 +9,7 @@ namespace depth_fusion {
 namespace {
 
 // First pass: how many vertices and triangles each block has.
-void countBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map, std::vector<MeshBlock>& blocks) {
+void countBlocks(SurfaceMeshKernels& kernels, const BlockMap& map, std::vector<MeshBlock>& blocks) {
   std::vector<MeshBlockArgs> batch;
   for (size_t begin = 0; begin < blocks.size(); begin += batch.size()) {
     const size_t end = std::min(begin + kernels.limits().blocks, blocks.size());
@@ -43,8 +43,8 @@ MeshSize numberVertices(std::vector<MeshBlock>& blocks) {
 }
 
 // Second pass: the mesh itself. Returns the number of batches.
-size_t emitBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map,
-                  const std::vector<MeshBlock>& blocks, bool colored, MeshSink& sink) {
+size_t emitBlocks(SurfaceMeshKernels& kernels, const BlockMap& map, const std::vector<MeshBlock>& blocks,
+                  bool colored, MeshSink& sink) {
   MeshBatcher batcher(map, blocks, kernels.limits());
   std::vector<MeshVertex> vertices;
   std::vector<MeshColor> colors;
@@ -64,11 +64,11 @@ size_t emitBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map,
 
 }  // namespace
 
-size_t extractBlocks(SurfaceMeshKernels& kernels, const BlockSparseMap& map, std::vector<MeshBlock>& blocks,
+size_t extractBlocks(SurfaceMeshKernels& kernels, const BlockMap& map, std::vector<MeshBlock>& blocks,
                      MeshSink& sink, MeshSize& size) {
   countBlocks(kernels, map, blocks);
   size = numberVertices(blocks);
-  size.colored = map.parameters().color;
+  size.colored = map.hasLayer(kColorLayer);
   sink.begin(size);
   const size_t batches = emitBlocks(kernels, map, blocks, size.colored, sink);
   sink.finish();

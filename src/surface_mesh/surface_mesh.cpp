@@ -4,7 +4,7 @@
 
 namespace depth_fusion {
 
-MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockSparseMap& map, MeshSink& sink,
+MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockMap& map, MeshSink& sink,
                                  SurfaceMeshParameters parameters) {
   validate(parameters.table());
   SurfaceMeshKernels kernels(compute, map, parameters.min_certainty,

@@ -30,7 +30,7 @@ size_t fittingBlocks(const MapParameters& map, size_t max_batch_blocks) {
 
 }  // namespace
 
-SurfaceMeshKernels::SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& map, int min_certainty,
+SurfaceMeshKernels::SurfaceMeshKernels(ComputeContext& compute, BlockMap& map, int min_certainty,
                                        size_t max_batch_blocks)
     : map_(map),
       min_certainty_(min_certainty),
@@ -45,7 +45,7 @@ SurfaceMeshKernels::SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& 
       row_triangles_(compute, limits_.blocks * rows_ * sizeof(uint32_t), kPurpose),
       totals_(compute, limits_.blocks * sizeof(Totals), kPurpose),
       vertices_(compute, kBatchVertices * sizeof(MeshVertex), kPurpose),
-      vertex_colors_(compute, map.parameters().color ? kBatchVertices * kColorBytes : 1, kPurpose),
+      vertex_colors_(compute, map.hasLayer(kColorLayer) ? kBatchVertices * kColorBytes : 1, kPurpose),
       triangles_(compute, kBatchTriangles * sizeof(MeshTriangle), kPurpose),
       gather_(compute, "surface_mesh/gather_blocks.cl", "gather_blocks", blockSizeOption(map.parameters())),
       classify_(compute, "surface_mesh/classify_rows.cl", "classify_rows", blockSizeOption(map.parameters())),
@@ -75,8 +75,8 @@ void SurfaceMeshKernels::classify(const std::vector<MeshBlockArgs>& blocks) {
 
 void SurfaceMeshKernels::classify(size_t count) {
   const int blocks = static_cast<int>(count);
-  gather_.run(count * padded_size_, volume_, row_masks_, map_.voxels(), map_.offsets(), block_args_, blocks,
-              min_certainty_, gridArgs(map_));
+  gather_.run(count * padded_size_, volume_, row_masks_, map_.layer(kTsdfLayer), map_.offsets(), block_args_,
+              blocks, min_certainty_, gridArgs(map_));
   classify_.run(count * rows_, row_vertices_, row_triangles_, row_masks_, table_, blocks);
   scan_.run(count, row_vertices_, row_triangles_, totals_, blocks);
 }
@@ -92,7 +92,7 @@ void SurfaceMeshKernels::emitVertices(const MeshBatch& batch, std::vector<MeshVe
 }
 
 void SurfaceMeshKernels::colorVertices(const MeshBatch& batch, std::vector<MeshColor>& colors) {
-  color_vertices_.run(batch.vertices, vertex_colors_, vertices_, map_.offsets(), map_.colors(),
+  color_vertices_.run(batch.vertices, vertex_colors_, vertices_, map_.offsets(), map_.layer(kColorLayer),
                       static_cast<int>(batch.vertices), gridArgs(map_));
   const auto rgba = vertex_colors_.read<std::array<uint8_t, kColorBytes>>(batch.vertices);
   colors.resize(batch.vertices);

@@ -14,8 +14,7 @@ class SurfaceMeshKernels {
   };
 
   // Allocates memory for batches of up to max_batch_blocks blocks, fewer where that would take too much.
-  SurfaceMeshKernels(ComputeContext& compute, BlockSparseMap& map, int min_certainty,
-                     size_t max_batch_blocks);
+  SurfaceMeshKernels(ComputeContext& compute, BlockMap& map, int min_certainty, size_t max_batch_blocks);
 
   const BatchLimits& limits() const { return limits_; }
   size_t deviceBytes() const;
@@ -24,21 +23,21 @@ class SurfaceMeshKernels {
   void classify(const std::vector<MeshBlockArgs>& blocks);
   void classify(size_t count);
   DeviceBuffer& blockArgs() { return block_args_; }
-  // Of the blocks classified last.
+  // What each of the blocks classified last has.
   std::vector<Totals> totals(size_t count) const;
-  // Of the batch classified last; the vectors keep their memory from batch to batch.
+  // These emit the batch classified last. The vectors keep their memory from batch to batch.
   void emitVertices(const MeshBatch& batch, std::vector<MeshVertex>& vertices);
-  // Of the vertices emitted last; the map must have colour.
+  // Colours the vertices emitted last. The map must have colour.
   void colorVertices(const MeshBatch& batch, std::vector<MeshColor>& colors);
   void emitTriangles(const MeshBatch& batch, std::vector<MeshTriangle>& triangles);
 
-  // The same on the device alone, of the first `count` blocks: six floats a vertex, three vertices a
+  // These emit the first `count` blocks and leave them on the device: six floats a vertex, three vertices a
   // triangle.
   const DeviceBuffer& emitVertices(size_t count, uint32_t first_vertex);
   const DeviceBuffer& emitTriangles(size_t count);
 
  private:
-  BlockSparseMap& map_;
+  BlockMap& map_;
   int min_certainty_;
   size_t rows_;         // of a block
   size_t padded_size_;  // voxels per axis of a gathered block

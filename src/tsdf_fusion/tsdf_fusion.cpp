@@ -5,14 +5,12 @@
 #include <cstring>
 
 #include "depth_fusion/common/error.h"
-#include "map/map_args.h"
 #include "frames/sensor_args.h"
+#include "tsdf_fusion/block_selection.h"
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
 namespace depth_fusion {
 namespace {
-
-constexpr int kRequestCapacity = 65536;
 
 TsdfFusionParameters validated(TsdfFusionParameters parameters) {
   validate(parameters.table());
@@ -33,19 +31,8 @@ int certaintyOf(float variance) {
   return std::clamp((VARIANCE_BITS_MAX - bits) / VARIANCE_BITS_STEP + 1, 0, CERTAINTY_MAX);
 }
 
-SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& camera) {
-  const float half_block_m = 0.5f * map.voxel_size_m * map.block_size;
-  const float half_block_at_1m_px = half_block_m * static_cast<float>(camera.fx);
-  SelectionArgs args{};
-  args.stride_px = std::clamp(static_cast<int>(half_block_at_1m_px / 3.0f), 1, 4);
-  args.dense_from_m = half_block_at_1m_px / (2.0f * args.stride_px);
-  args.band_samples = static_cast<int>(std::ceil(2.0f * map.truncation_m / half_block_m)) + 1;
-  args.capacity = kRequestCapacity;
-  return args;
-}
-
-FusionArgs fusionArgs(const TsdfFusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,
-                      int frame_number) {
+FusionArgs fusionArgs(const TsdfFusionParameters& parameters, const MapParameters& map,
+                      const DepthFrame& frame, int frame_number) {
   const DepthSensorParameters& sensor = frame.levels[0].sensor;
   FusionArgs args{};
   args.depth_step_m = frame.depth_step_m;
@@ -62,16 +49,15 @@ FusionArgs fusionArgs(const TsdfFusionParameters& parameters, const MapParameter
   return args;
 }
 
-TsdfFusion::TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const TsdfFusionParameters& parameters)
+TsdfFusion::TsdfFusion(ComputeContext& compute, BlockMap& map, const TsdfFusionParameters& parameters)
     : compute_(compute),
       map_(map),
       parameters_(validated(parameters)),
-      requests_(compute, kRequestCapacity * sizeof(BlockRequest), "block requests"),
       visible_(compute, map.usage().capacity * sizeof(int), "the list of visible blocks"),
       empty_(compute, map.usage().capacity * sizeof(int), "the list of empty blocks"),
       count_(compute, sizeof(int), "a list's length"),
-      points_outside_(compute, sizeof(int), "the count of surface points"),
-      kernels_(std::make_unique<Kernels>(compute, map, parameters_)) {}
+      kernels_(std::make_unique<Kernels>(compute, map, parameters_)),
+      selection_(std::make_unique<BlockSelection>(compute, *kernels_)) {}
 
 TsdfFusion::~TsdfFusion() = default;
 
@@ -111,24 +97,12 @@ FusionResult TsdfFusion::integrate(const DepthFrame& frame, const Pose& T_W_D, S
 }
 
 void TsdfFusion::allocateBlocks(const DepthFrame& frame, const Pose& T_W_D, FusionResult& result) {
-  const SelectionArgs args = selectionArgs(map_.parameters(), frame.levels[0].camera);
-  for (bool list_was_full = true; list_was_full;) {
-    count_.fill(0, sizeof(int));
-    points_outside_.fill(0, points_outside_.bytes());
-    kernels_->requestBlocks(frame, map_, requests_, count_, points_outside_, T_W_D, args);
-    const int count = count_.read<int>(1).front();
-    list_was_full = count > args.capacity;
-    std::vector<BlockSparseMap::BlockIndex> blocks;
-    for (const BlockRequest& request : requests_.read<BlockRequest>(std::min(count, args.capacity))) {
-      blocks.emplace_back(request.x, request.y, request.z);
-    }
-    std::sort(blocks.begin(), blocks.end(), before);
+  result.points_outside = selection_->select(frame, map_, T_W_D, [&](const std::vector<BlockIndex>& blocks) {
     const size_t allocated = map_.allocate(blocks);
     result.blocks_requested += blocks.size();
     result.blocks_allocated += allocated;
-    if (allocated < blocks.size()) break;
-  }
-  result.points_outside = points_outside_.read<int>(1).front();
+    return allocated == blocks.size();
+  });
 }
 
 }  // namespace depth_fusion

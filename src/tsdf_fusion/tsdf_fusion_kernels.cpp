@@ -1,10 +1,9 @@
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
-#include <algorithm>
-
+#include "frames/sensor_args.h"
 #include "geometry/kernel_args.h"
 #include "map/map_args.h"
-#include "frames/sensor_args.h"
+#include "tsdf_fusion/filter_options.h"
 
 namespace depth_fusion {
 namespace {
@@ -13,22 +12,9 @@ static_assert(SLOTS_PER_GROUP % SLOTS_PER_ITEM(16) == 0, "a work-item's slots ar
 
 constexpr char kSelection[] = "tsdf_fusion/select_blocks.cl";
 
-// In the order of the FUSION_ and DISTANCE_ constants of types.h.
-const std::vector<std::string> kRules = {"average", "weighted", "kalman"};
-const std::vector<std::string> kDistances = {"projective", "plane", "refined"};
-
-std::string positionOf(const std::string& name, const std::vector<std::string>& names) {
-  return std::to_string(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-std::string ruleOptions(const TsdfFusionParameters& parameters) {
-  return " -DFUSION_RULE=" + positionOf(parameters.rule, kRules) +
-         " -DFUSION_DISTANCE=" + positionOf(parameters.distance, kDistances);
-}
-
 }  // namespace
 
-TsdfFusion::Kernels::Kernels(ComputeContext& compute, const BlockSparseMap& map,
+TsdfFusion::Kernels::Kernels(ComputeContext& compute, const BlockMap& map,
                              const TsdfFusionParameters& parameters)
     : in_view_(compute, map),
       simd_width_(compute.impl().simd_width),
@@ -36,10 +22,10 @@ TsdfFusion::Kernels::Kernels(ComputeContext& compute, const BlockSparseMap& map,
       request_(compute, kSelection, "request_blocks", blockSizeOption(map.parameters())),
       visible_(compute, kSelection, "list_visible_blocks", blockSizeOption(map.parameters())),
       integrate_(compute, "tsdf_fusion/integrate_blocks.cl", "integrate_blocks",
-                 blockSizeOption(map.parameters()) + ruleOptions(parameters)),
+                 blockSizeOption(map.parameters()) + filterOptions(parameters)),
       empty_(compute, kSelection, "list_empty_blocks", blockSizeOption(map.parameters())) {}
 
-void TsdfFusion::Kernels::requestBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& requests,
+void TsdfFusion::Kernels::requestBlocks(const DepthFrame& frame, BlockMap& map, DeviceBuffer& requests,
                                         DeviceBuffer& count, DeviceBuffer& points_outside, const Pose& T_W_D,
                                         const SelectionArgs& args) {
   const CameraIntrinsics& camera = frame.levels[0].camera;
@@ -49,25 +35,24 @@ void TsdfFusion::Kernels::requestBlocks(const DepthFrame& frame, BlockSparseMap&
                  points_outside, toArgs(camera), toArgs(T_W_D), gridArgs(map), args);
 }
 
-void TsdfFusion::Kernels::listVisibleBlocks(const DepthFrame& frame, BlockSparseMap& map,
-                                            DeviceBuffer& visible, DeviceBuffer& count, const Pose& T_D_W) {
+void TsdfFusion::Kernels::listVisibleBlocks(const DepthFrame& frame, BlockMap& map, DeviceBuffer& visible,
+                                            DeviceBuffer& count, const Pose& T_D_W) {
   const CameraIntrinsics& camera = frame.levels[0].camera;
   in_view_.list(map, camera, T_D_W, frame.maxRange_m() + map.parameters().truncation_m / MIN_COSINE);
   visible_.run(in_view_.slots() / SLOTS_PER_ITEM(simd_width_), in_view_.groups(), in_view_.groupCount(),
-               map.slotBound(), map.blockIndices(), map.blockStates(), frame.max_tiles, visible, count,
+               map.slots().bound(), map.blockIndices(), map.blockStates(), frame.max_tiles, visible, count,
                toArgs(camera), toArgs(T_D_W), gridArgs(map));
 }
 
-void TsdfFusion::Kernels::integrateBlocks(const DepthFrame& frame, BlockSparseMap& map,
-                                          const DeviceBuffer& visible, int visible_count, const Pose& T_D_W,
-                                          const FusionArgs& args) {
+void TsdfFusion::Kernels::integrateBlocks(const DepthFrame& frame, BlockMap& map, const DeviceBuffer& visible,
+                                          int visible_count, const Pose& T_D_W, const FusionArgs& args) {
   const DepthLevel& level = frame.levels[0];
-  integrate_.run(visible_count * items_per_block_, map.voxels(), visible, visible_count, map.blockIndices(),
-                 map.blockStates(), frame.measurements, level.normals, toArgs(level.camera), toArgs(T_D_W),
-                 gridArgs(map), toArgs(level.sensor), args);
+  integrate_.run(visible_count * items_per_block_, map.layer(kTsdfLayer), visible, visible_count,
+                 map.blockIndices(), map.blockStates(), frame.measurements, level.normals,
+                 toArgs(level.camera), toArgs(T_D_W), gridArgs(map), toArgs(level.sensor), args);
 }
 
-void TsdfFusion::Kernels::listEmptyBlocks(BlockSparseMap& map, const DeviceBuffer& visible, int visible_count,
+void TsdfFusion::Kernels::listEmptyBlocks(BlockMap& map, const DeviceBuffer& visible, int visible_count,
                                           DeviceBuffer& empty, DeviceBuffer& count) {
   empty_.run(visible_count, map.offsets(), map.blockIndices(), map.blockStates(), visible, visible_count,
              empty, count, gridArgs(map));

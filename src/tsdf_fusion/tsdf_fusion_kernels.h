@@ -11,25 +11,21 @@ namespace depth_fusion {
 // The code of a variance in a voxel's second byte, 0 for one above the scale.
 int certaintyOf(float variance);
 
-// Sampling points lie at most half a block apart across the rays, at a depth of 3 m, and along them.
-SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& camera);
-
-FusionArgs fusionArgs(const TsdfFusionParameters& parameters, const MapParameters& map, const DepthFrame& frame,
-                      int frame_number);
+FusionArgs fusionArgs(const TsdfFusionParameters& parameters, const MapParameters& map,
+                      const DepthFrame& frame, int frame_number);
 
 class TsdfFusion::Kernels {
  public:
-  Kernels(ComputeContext& compute, const BlockSparseMap& map, const TsdfFusionParameters& parameters = {});
+  Kernels(ComputeContext& compute, const BlockMap& map, const TsdfFusionParameters& parameters = {});
 
-  void requestBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& requests,
-                     DeviceBuffer& count, DeviceBuffer& points_outside, const Pose& T_W_D,
-                     const SelectionArgs& args);
-  void listVisibleBlocks(const DepthFrame& frame, BlockSparseMap& map, DeviceBuffer& visible,
-                         DeviceBuffer& count, const Pose& T_D_W);
-  void integrateBlocks(const DepthFrame& frame, BlockSparseMap& map, const DeviceBuffer& visible,
-                       int visible_count, const Pose& T_D_W, const FusionArgs& args);
-  void listEmptyBlocks(BlockSparseMap& map, const DeviceBuffer& visible, int visible_count,
-                       DeviceBuffer& empty, DeviceBuffer& count);
+  void requestBlocks(const DepthFrame& frame, BlockMap& map, DeviceBuffer& requests, DeviceBuffer& count,
+                     DeviceBuffer& points_outside, const Pose& T_W_D, const SelectionArgs& args);
+  void listVisibleBlocks(const DepthFrame& frame, BlockMap& map, DeviceBuffer& visible, DeviceBuffer& count,
+                         const Pose& T_D_W);
+  void integrateBlocks(const DepthFrame& frame, BlockMap& map, const DeviceBuffer& visible, int visible_count,
+                       const Pose& T_D_W, const FusionArgs& args);
+  void listEmptyBlocks(BlockMap& map, const DeviceBuffer& visible, int visible_count, DeviceBuffer& empty,
+                       DeviceBuffer& count);
 
  private:
   SlotsInView in_view_;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 #include "reference/reference_marching_cubes.h"
 
 namespace depth_fusion {
@@ -22,11 +22,11 @@ inline int8_t distanceByte(const MapParameters& map, const SignedDistance& dista
 // Allocates the blocks from `first` on, `count` along each axis, that hold a known voxel, all with the given
 // weight.
 inline void fillMap(
-    BlockSparseMap& map, const SignedDistance& distance, const Eigen::Vector3i& first, int count,
+    BlockMap& map, const SignedDistance& distance, const Eigen::Vector3i& first, int count,
     const VoxelWeight& weight = [](const Eigen::Vector3i&) { return uint8_t{1}; }) {
   const int m = map.parameters().block_size;
   const size_t voxels = static_cast<size_t>(m) * m * m;
-  std::vector<BlockSparseMap::BlockIndex> indices;
+  std::vector<BlockIndex> indices;
   std::vector<std::vector<uint8_t>> contents;
   for (int block = 0; block < count * count * count; ++block) {
     const Eigen::Vector3i index =
@@ -46,10 +46,10 @@ inline void fillMap(
     contents.push_back(std::move(content));
   }
   map.allocate(indices);
-  for (const BlockSparseMap::Block& block : map.blocks()) {
+  for (const SlotTable::Block& block : map.slots().blocks()) {
     for (size_t i = 0; i < indices.size(); ++i) {
       if (indices[i] == block.index)
-        map.voxels().write(contents[i].data(), 2 * voxels, block.slot * 2 * voxels);
+        map.layer(kTsdfLayer).write(contents[i].data(), 2 * voxels, block.slot * 2 * voxels);
     }
   }
 }

@@ -11,7 +11,7 @@ namespace depth_fusion::reference {
 
 class RayCaster {
  public:
-  explicit RayCaster(BlockSparseMap& map) : map_(map.parameters()), content_(readMap(map)) {}
+  explicit RayCaster(BlockMap& map) : map_(map.parameters()), content_(readMap(map)) {}
 
   // Depth of the first place where the ray (z = 1) goes from free space through the surface; 0 = none.
   double cast(const Pose& T_W_D, const Eigen::Vector3d& ray_D, double min_range_m, double max_range_m) const {

@@ -114,7 +114,7 @@ inline Distance distanceTo(const View& view, const cv::Vec3f& measured, const Ei
 
 // The measurement of a voxel of a block. All rays through a block are as long as the one through its middle.
 inline Measurement measure(const View& view, const Pose& T_D_W, const MapParameters& map,
-                           const TsdfFusionParameters& fusion, const BlockSparseMap::BlockIndex& block,
+                           const TsdfFusionParameters& fusion, const BlockIndex& block,
                            const Eigen::Vector3i& voxel) {
   const double margin_px = 3e-3;
   const double margin_steps = 0.02;

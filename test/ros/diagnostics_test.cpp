@@ -106,8 +106,9 @@ TEST_F(DiagnosticsOf, AMachineThatIsTooSlow) {
   loadTracking();
   sendUntilRunning("icp_tracking");
   const std::shared_ptr<SharedMap> map = findMap(graph_.resolve("tsdf_fusion"));
-  const std::lock_guard<std::mutex> busy(map->mutex);  // fusion has to wait for it, and tracking for fusion
-  const DiagnosticStatus slow = sendUntil("icp_tracking", DiagnosticStatus::WARN, "too slow: ");
+  // Fusion has to wait for the map, and tracking for fusion.
+  const DiagnosticStatus slow =
+      map->locked([&](FusedMap&) { return sendUntil("icp_tracking", DiagnosticStatus::WARN, "too slow: "); });
   EXPECT_NE(slow.message.find("larger map/voxel_size_m"), std::string::npos);
   EXPECT_GT(std::stoi(valueOf(slow, "dropped: too slow")), 0);
 }

@@ -215,7 +215,7 @@ TEST_F(LiveSurfaceTest, boxesAreTheBlocks) {
   load();
   map_.show(ball({0.0, 0.0, 0.0}, 0.08));
   Listener<Marker> boxes(graph_.handle(), "surface_mesh/blocks");
-  const size_t blocks = map_.shared().map.usage().blocks;
+  const size_t blocks = map_.blocks();
   const auto marker = boxes.await([&](const Marker& m) { return m.points.size() == blocks; }, 30.0);
   ASSERT_NE(marker, nullptr);
   EXPECT_EQ(marker->type, +Marker::CUBE_LIST);
@@ -244,10 +244,7 @@ TEST_F(LiveSurfaceTest, fusionIsFollowed) {
   const std::shared_ptr<SharedMap> map = findMap(graph.resolve("tsdf_fusion"));
   ASSERT_NE(map, nullptr);
   TriangleMesh mesh;
-  {
-    const std::lock_guard<std::mutex> lock(map->mutex);
-    exportSurfaceMesh(*map->compute, map->map, mesh);
-  }
+  map->locked([&](FusedMap& fused) { exportSurfaceMesh(*map->compute, fused.map(), mesh); });
   EXPECT_GT(mesh.triangles.size(), 10000u);
   EXPECT_TRUE(screen.shows(mesh));
 }

@@ -2,8 +2,8 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
-#include "ros/in_process/shared_map.h"
 #include "ros/bags/open_recording.h"
+#include "ros/in_process/shared_map.h"
 #include "support/map_contents.h"
 #include "support/nodelet_graph.h"
 #include "support/temporary_folder.h"
@@ -62,7 +62,7 @@ TEST(Lossless, GivesTheOfflineTrajectoryAndMap) {
 
   const std::shared_ptr<SharedMap> map = findMap(graph.resolve("tsdf_fusion"));
   ASSERT_NE(map, nullptr);
-  EXPECT_TRUE(readMap(map->map) == readMap(offline->map()));
+  EXPECT_TRUE(map->locked([&](FusedMap& fused) { return readMap(fused.map()) == readMap(offline->map()); }));
 }
 
 }  // namespace

@@ -1,12 +1,20 @@
 // Resets of the map: nothing of what was before is left, whatever is on its way.
 #include <thread>
 
-#include "ros/in_process/frames.h"
+#include "ros/in_process/frame_admission.h"
 #include "ros/in_process/shared_map.h"
 #include "support/live_graph.h"
 
 namespace depth_fusion {
 namespace {
+
+size_t blocksOf(SharedMap& map) {
+  return map.locked([](FusedMap& fused) { return fused.map().slots().used(); });
+}
+
+uint32_t generationOf(SharedMap& map) {
+  return map.locked([](FusedMap& fused) { return fused.map().generation(); });
+}
 
 class Resets : public LiveGraph {
  protected:
@@ -51,7 +59,7 @@ TEST_F(Resets, EmptyMapAndTracker) {
   fuseAll({frames.begin(), frames.begin() + 6});
   const uint32_t before = map_status_.all().back()->generation;
   resetVolume();
-  EXPECT_EQ(findMap(graph_.resolve("tsdf_fusion"))->map.usage().blocks, 0u);
+  EXPECT_EQ(blocksOf(*findMap(graph_.resolve("tsdf_fusion"))), 0u);
   ros::WallDuration(2.0).sleep();  // until the tracker has heard of it: what comes sooner is from before
 
   fuseAll({frames.begin() + 6, frames.end()});
@@ -67,7 +75,7 @@ TEST_F(Resets, RefuseFramesFromBefore) {
   mapSomeFrames();
   resetVolume();
   const uint32_t of_old_map = frame_.map_generation;
-  const uint32_t of_new_map = findMap(graph_.resolve("tsdf_fusion"))->generation;
+  const uint32_t of_new_map = generationOf(*findMap(graph_.resolve("tsdf_fusion")));
   ASSERT_NE(of_old_map, of_new_map);
   for (const bool begins_map : {false, true}) {
     for (const uint32_t generation : {of_old_map, of_new_map, 0u}) {
@@ -87,17 +95,18 @@ TEST_F(Resets, LeaveNothingOfFramesThatWaitForTheMap) {
   mapSomeFrames();
   const std::shared_ptr<SharedMap> map = findMap(graph_.resolve("tsdf_fusion"));
   for (int round = 0; round < 5; ++round) {
-    frame_.map_generation = map->generation;
-    std::unique_lock<std::mutex> busy(map->mutex);
-    const ros::Time stamp = send(ros::WallTime::now(), true);
-    ros::WallDuration(0.1).sleep();
-    std::thread resetting([this] { resetVolume(); });
-    ros::WallDuration(0.1).sleep();
-    busy.unlock();
+    frame_.map_generation = generationOf(*map);
+    std::thread resetting;
+    const ros::Time stamp = map->locked([&](FusedMap&) {
+      const ros::Time sent = send(ros::WallTime::now(), true);
+      ros::WallDuration(0.1).sleep();
+      resetting = std::thread([this] { resetVolume(); });
+      ros::WallDuration(0.1).sleep();
+      return sent;
+    });
     resetting.join();
     ASSERT_NE(map_status_.awaitStamp(stamp), nullptr);
-    const std::lock_guard<std::mutex> lock(map->mutex);
-    EXPECT_EQ(map->map.usage().blocks, 0u) << round;
+    EXPECT_EQ(blocksOf(*map), 0u) << round;
   }
 }
 
@@ -115,6 +124,70 @@ TEST(MapResets, GoByArrivalAndForAShortTimeByStamps) {
   EXPECT_FALSE(isBefore(100.1, 1000.0)) << "stamps of another clock";
   EXPECT_FALSE(isBefore(100.1, 1.0)) << "stamps of another clock";
   EXPECT_FALSE(isBefore(102.0, 49.9)) << "a bag in a loop";
+}
+
+// Frames as they come to the map, one after the other.
+class Admissions : public testing::Test {
+ protected:
+  Admission admit(bool begins_map = false, uint32_t clock_jumps = 0) {
+    auto sensor = std::make_shared<SensorFrame>();
+    sensor->received = ros::WallTime(100.0);
+    sensor->clock_jumps = clock_jumps;
+    TrackedFrame frame;
+    frame.sensor = sensor;
+    frame.map_generation = known_generation_;
+    frame.begins_map = begins_map;
+    return admission_->admit(frame, map_, resets_on_jump_);
+  }
+
+  static constexpr uint32_t kFirst = 5;
+  std::unique_ptr<FrameAdmission> admission_ = std::make_unique<FrameAdmission>(false, kFirst);
+  MapState map_{kFirst, false};
+  uint32_t known_generation_ = kFirst;  // to the tracker
+  bool resets_on_jump_ = true;
+};
+
+TEST_F(Admissions, AreForFramesOfTheMapThatIsThere) {
+  EXPECT_TRUE(admit().fuse);
+  known_generation_ = kFirst - 1;
+  EXPECT_EQ(admit().reason, kBeforeReset);
+  known_generation_ = 0;  // has not heard of any map
+  EXPECT_FALSE(admit().fuse);
+  map_.is_empty = true;
+  EXPECT_TRUE(admit().fuse);
+  map_.generation = kFirst + 1;  // emptied by a call
+  EXPECT_FALSE(admit().fuse);
+}
+
+TEST_F(Admissions, EndWithAReset) {
+  admission_->noteReset({ros::WallTime(100.5), ros::Time(0)});
+  EXPECT_EQ(admit(true).reason, kBeforeReset);
+  admission_->noteReset({ros::WallTime(50.0), ros::Time(0)});
+  EXPECT_TRUE(admit(true).begins_map);
+}
+
+TEST_F(Admissions, OfPosesFromElsewhereBeginAMapWhenTheClockJumps) {
+  admission_ = std::make_unique<FrameAdmission>(true, kFirst);
+  known_generation_ = 0;
+  EXPECT_FALSE(admit(false, 0).begins_map);
+  EXPECT_TRUE(admit(false, 1).begins_map);
+  EXPECT_FALSE(admit(false, 1).begins_map);
+  EXPECT_EQ(admit(false, 0).reason, "from before a clock jump");
+  resets_on_jump_ = false;
+  EXPECT_TRUE(admit(false, 2).fuse);
+  EXPECT_FALSE(admit(false, 3).begins_map);
+}
+
+TEST_F(Admissions, StandStillInOtherModes) {
+  admission_->setMode(MapMode::kPaused);
+  EXPECT_EQ(admit().reason, "paused");
+  EXPECT_FALSE(admit().may_predict_from);
+  admission_->setMode(MapMode::kLocalisation);
+  EXPECT_EQ(admit().reason, "localisation only");
+  EXPECT_TRUE(admit().may_predict_from);
+  EXPECT_FALSE(admit(true).may_predict_from);
+  map_.is_empty = true;
+  EXPECT_FALSE(admit().may_predict_from);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 
 namespace depth_fusion {
 
-using BlockIndex = BlockSparseMap::BlockIndex;
 using reference::Measurement;
 using reference::View;
 using reference::Voxel;

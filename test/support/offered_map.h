@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "ros/in_process/shared_map.h"
 #include "support/changing_map.h"
 
@@ -16,31 +17,29 @@ inline SignedDistance ball(const Eigen::Vector3d& centre, double radius_m) {
 class OfferedMap {
  public:
   explicit OfferedMap(const std::string& name, bool color = false)
-      : map_(std::make_shared<SharedMap>(sharedCompute(""), parameters(color))),
-        changing_(*map_->compute, map_->map) {
-    map_->frame_id = "map";
+      : map_(std::make_shared<SharedMap>(sharedCompute(""), parameters(color), "map")) {
     offerMap(name, map_);
   }
 
-  SharedMap& shared() { return *map_; }
+  size_t blocks() {
+    return map_->locked([](FusedMap& fused) { return fused.map().slots().used(); });
+  }
 
   void show(const SignedDistance& distance) {
-    const std::lock_guard<std::mutex> lock(map_->mutex);
-    changing_.show(distance, [this](const std::vector<int>& slots) { map_->noteUpdated(slots); });
+    map_->locked([&](FusedMap& fused) { ChangingMap(*map_->compute, fused.map()).show(distance); });
   }
   void reset() {
-    const std::lock_guard<std::mutex> lock(map_->mutex);
-    map_->reset();
+    map_->locked([](FusedMap& fused) { fused.reset(); });
   }
   TriangleMesh mesh() {
-    const std::lock_guard<std::mutex> lock(map_->mutex);
-    TriangleMesh mesh;
-    exportSurfaceMesh(*map_->compute, map_->map, mesh);
-    return mesh;
+    return map_->locked([&](FusedMap& fused) {
+      TriangleMesh mesh;
+      exportSurfaceMesh(*map_->compute, fused.map(), mesh);
+      return mesh;
+    });
   }
   bool isFollowed() {
-    const std::lock_guard<std::mutex> lock(map_->mutex);
-    return map_->isFollowed();
+    return map_->locked([](FusedMap& fused) { return fused.map().isFollowed(); });
   }
 
  private:
@@ -54,7 +53,6 @@ class OfferedMap {
   }
 
   std::shared_ptr<SharedMap> map_;
-  ChangingMap changing_;
 };
 
 }  // namespace depth_fusion

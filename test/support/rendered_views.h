@@ -31,13 +31,13 @@ inline MapParameters mapParameters(int block_size, int blocks_per_axis = 0) {
 }
 
 // Sets the blocks' states as fusion leaves them.
-inline void setBlockStates(BlockSparseMap& map) {
+inline void setBlockStates(BlockMap& map) {
   const MapParameters& parameters = map.parameters();
   const double near_surface = std::sqrt(3.0) * parameters.voxel_size_m * TSDF_MAX / parameters.truncation_m;
   const MapContent content = readMap(map);
-  std::vector<int> states(map.slotBound(), 0);
+  std::vector<int> states(map.slots().bound(), 0);
   const int m = parameters.block_size;
-  for (const BlockSparseMap::Block& block : map.blocks()) {
+  for (const SlotTable::Block& block : map.slots().blocks()) {
     const auto& distances = content.at(keyOf(block.index)).distances;
     for (int voxel = 0; voxel < m * m * m; ++voxel) {
       if (distances[voxel] == TSDF_CHI) continue;
@@ -52,12 +52,11 @@ inline void setBlockStates(BlockSparseMap& map) {
 }
 
 // A map with the surface in the whole window, centred on the point.
-inline std::unique_ptr<BlockSparseMap> makeMap(const MapParameters& parameters,
-                                               const SignedDistance& distance,
-                                               const Eigen::Vector3d& centre_W = Eigen::Vector3d::Zero()) {
-  auto map = std::make_unique<BlockSparseMap>(compute(), parameters);
+inline std::unique_ptr<BlockMap> makeMap(const MapParameters& parameters, const SignedDistance& distance,
+                                         const Eigen::Vector3d& centre_W = Eigen::Vector3d::Zero()) {
+  auto map = std::make_unique<BlockMap>(compute(), parameters);
   map->reset(centre_W);
-  fillMap(*map, distance, map->origin(), parameters.blocks_per_axis);
+  fillMap(*map, distance, map->window().origin, parameters.blocks_per_axis);
   setBlockStates(*map);
   return map;
 }
@@ -66,7 +65,7 @@ struct Images {
   cv::Mat depth, normals;
 };
 
-inline Images render(BlockSparseMap& map, const Pose& T_W_D, float max_range_m = kMaxRange_m,
+inline Images render(BlockMap& map, const Pose& T_W_D, float max_range_m = kMaxRange_m,
                      const std::string& renderer_name = "ray_casting") {
   ModelViewRenderer renderer(compute(), map, kCamera, {renderer_name});
   StageTimers timers;

@@ -25,7 +25,7 @@ class SurfaceMesh : public testing::Test {
     return parameters;
   }
 
-  static TriangleMesh meshOf(BlockSparseMap& map, const SurfaceMeshParameters& parameters = {}) {
+  static TriangleMesh meshOf(BlockMap& map, const SurfaceMeshParameters& parameters = {}) {
     TriangleMesh mesh;
     exportSurfaceMesh(compute(), map, mesh, parameters);
     return mesh;

@@ -1,9 +1,9 @@
 // Whole runs on a simulated recording, in memory.
 #pragma once
 
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "tools/evaluation/mesh_error.h"
-#include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
@@ -13,7 +13,7 @@ enum class Poses { kGiven, kTracked };
 struct Reconstruction {
   Trajectory estimate, truth;  // of the frames that are not lost
   size_t lost = 0;
-  BlockSparseMap::Usage usage;
+  BlockMap::Usage usage;
   TriangleMesh mesh;
   Pose T_W_M = Pose::Identity();  // maps the mesh into the scene's world
 };

@@ -39,7 +39,7 @@ FusedRoom fuseRoom(int blocks_per_axis, int block_size, Poses poses) {
 }
 
 void expectPaperFormula(const FusedRoom& room, size_t n, size_t m) {
-  const BlockSparseMap::Usage& usage = room.result.usage;
+  const BlockMap::Usage& usage = room.result.usage;
   EXPECT_GT(usage.blocks, 0u);
   EXPECT_EQ(usage.bytes, 2 * usage.blocks * m * m * m + 4 * n * n * n);
   EXPECT_GE(usage.pool_bytes, usage.bytes);

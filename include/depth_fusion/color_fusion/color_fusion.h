@@ -6,11 +6,11 @@
 
 #include "depth_fusion/color_fusion/color_fusion_parameters.h"
 #include "depth_fusion/common/stage_timers.h"
+#include "depth_fusion/frames/depth_frame.h"
 #include "depth_fusion/frames/mapping_result.h"
 #include "depth_fusion/frames/rgbd_frame.h"
 #include "depth_fusion/geometry/pose.h"
-#include "depth_fusion/map/block_sparse_map.h"
-#include "depth_fusion/frames/depth_frame.h"
+#include "depth_fusion/map/block_map.h"
 
 namespace depth_fusion {
 
@@ -20,11 +20,14 @@ class ColorFusion {
  public:
   class Kernels;  // typed launches, private to the library and its tests
 
-  // The map must have been made with MapParameters::color.
-  ColorFusion(ComputeContext& compute, BlockSparseMap& map, const ColorFusionParameters& parameters);
+  // The stage for the map; null for a map without colour.
+  static std::unique_ptr<ColorFusion> create(ComputeContext& compute, BlockMap& map,
+                                             const ColorFusionParameters& parameters);
+  // Throws Error for a map without colour.
+  ColorFusion(ComputeContext& compute, BlockMap& map, const ColorFusionParameters& parameters);
   ~ColorFusion();
 
-  // For the frames to come.
+  // The parameters are for the frames to come.
   void setParameters(const ColorFusionParameters& parameters);
 
   // Fuses the frame's colour, after its depth, into the first visible_count of the visible blocks. A frame
@@ -44,7 +47,7 @@ class ColorFusion {
   std::vector<SurfaceColor> sampleMap(const DepthFrame& depth, const Pose& T_W_D);
 
   ComputeContext& compute_;
-  BlockSparseMap& map_;
+  BlockMap& map_;
   ColorFusionParameters parameters_;
   std::unique_ptr<Kernels> kernels_;
   std::unique_ptr<Images> images_;  // null before the first colour image

@@ -8,7 +8,7 @@
 #include "depth_fusion/compute/result_pool.h"
 #include "depth_fusion/frames/model_view.h"
 #include "depth_fusion/geometry/pose.h"
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 #include "depth_fusion/model_view/model_view_parameters.h"
 
 namespace depth_fusion {
@@ -20,7 +20,7 @@ class ModelViewRenderer {
   class Kernels;  // typed launches, private to the library and its tests
 
   // Views are as large as the camera's images, or half as large in each axis if the parameters say so.
-  ModelViewRenderer(ComputeContext& compute, BlockSparseMap& map, const CameraIntrinsics& camera,
+  ModelViewRenderer(ComputeContext& compute, BlockMap& map, const CameraIntrinsics& camera,
                     ModelViewParameters parameters = {});
   ~ModelViewRenderer();
 
@@ -41,7 +41,7 @@ class ModelViewRenderer {
   cv::Mat readPicture() const;
 
   ComputeContext& compute_;
-  BlockSparseMap& map_;
+  BlockMap& map_;
   CameraIntrinsics camera_;  // of the views
   ResultPool<ModelView> views_;
   DeviceBuffer nearest_, occupied_;  // ranges of the rays

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "depth_fusion/frames/mapping_result.h"
 #include "depth_fusion/color_fusion/color_fusion.h"
+#include "depth_fusion/frames/mapping_result.h"
 #include "depth_fusion/model_view/model_view_renderer.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "depth_fusion/tsdf_fusion/tsdf_fusion.h"
@@ -15,26 +15,24 @@ namespace depth_fusion {
 class Mapper {
  public:
   // Keeps a reference to the map.
-  Mapper(ComputeContext& compute, BlockSparseMap& map, const PipelineParameters& parameters,
+  Mapper(ComputeContext& compute, BlockMap& map, const PipelineParameters& parameters,
          const CameraIntrinsics& camera);
 
-  // For the frames to come; the map's stay. Throws Error for what cannot change.
+  // The parameters are for the frames to come; the map's stay. Throws Error for what cannot change.
   void setParameters(const PipelineParameters& parameters);
-  // Fuses `depth`, which is `frame` preprocessed. An empty map is first moved to where the frame looks.
+  // Fuses `depth`, which is `frame` preprocessed, and notes the changes if somebody follows the map. The
+  // window of an empty map is first moved to where the frame looks.
   MappingResult fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D, StageTimers& timers);
 
   // The map as the camera sees it from T_W_D; valid until the next call.
   const ModelView& render(const Pose& T_W_D, StageTimers& timers);
   ModelViewRenderer& renderer() { return renderer_; }
 
-  // Slots of the blocks that the last frame updated or released.
-  std::vector<int> updatedBlocks(const MappingResult& last) const;
-
  private:
   PipelineParameters parameters_;
-  BlockSparseMap& map_;
+  BlockMap& map_;
   TsdfFusion fusion_;
-  std::unique_ptr<ColorFusion> color_fusion_;  // null without map/color
+  std::unique_ptr<ColorFusion> color_fusion_;  // null for a map without colour
   ModelViewRenderer renderer_;
 };
 

@@ -32,7 +32,7 @@ class ReconstructionPipeline {
   // a frame was announced.
   FrameResult processFrame(const RgbdFrame& frame, const Pose& T_W_D);
 
-  BlockSparseMap& map() { return map_; }
+  BlockMap& map() { return map_; }
   StageTimers& timers() { return timers_; }
   const PipelineParameters& parameters() const { return parameters_; }
   size_t keyframeCount() const { return session_.keyframeCount(); }
@@ -45,7 +45,7 @@ class ReconstructionPipeline {
 
   PipelineParameters parameters_;
   StageTimers timers_;
-  BlockSparseMap map_;
+  BlockMap map_;
   TextureOdometry odometry_;
   Mapper mapper_;
   std::unique_ptr<ComputeContext> tracking_queue_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <unordered_set>
@@ -21,31 +22,33 @@ struct MeshChunk {
   TriangleMesh mesh;  // empty: the surface that was there is gone
 };
 
-// Cubes of blocks whose surface is extracted one by one. The chunks' triangles together are those of
-// exportSurfaceMesh, with the same vertices; chunks side by side repeat the vertices at their border and
-// leave no crack. The device memory is allocated once, whatever the size of the map. Nothing here is
-// synchronised: the caller sees to it that the map does not change during a call.
+// Cubes of blocks whose surface is extracted one by one, as the map that they follow changes. The chunks'
+// triangles together are those of exportSurfaceMesh, with the same vertices; chunks side by side repeat the
+// vertices at their border and leave no crack. The device memory is allocated once, whatever the size of the
+// map. Nothing here is synchronised: the caller sees to it that the map does not change during a call.
 class MeshChunks {
  public:
   // Keeps references.
-  MeshChunks(ComputeContext& compute, BlockSparseMap& map, const SurfaceMeshParameters& parameters = {},
+  MeshChunks(ComputeContext& compute, BlockMap& map, const SurfaceMeshParameters& parameters = {},
              int blocks_per_axis = 16);
   ~MeshChunks();
 
-  // The blocks in these slots have new contents or were released; to be told before the map gives the slots
-  // away again.
-  void noteUpdated(const std::vector<int>& slots);
+  // Takes note of what changed in the map since the last call. After a reset of the map all chunks are
+  // forgotten; none is reported as gone.
+  void follow();
+  // The generation of the map that the chunks are of; 0 before the first follow().
+  uint32_t generation() const { return generation_; }
+
   // Every chunk is to be extracted again, as for a reader that has none.
   void noteAll();
-  // So are the next of the chunks with a surface, in turn, for readers that may lack some.
+  // `count` of the chunks with a surface, the next ones in turn, are to be extracted again, for readers that
+  // may lack some.
   void noteNext(size_t count);
-  // The map was reset: forgets all chunks; none is reported as gone.
-  void noteReset();
 
-  // Chunks that takeChanged() has still to look at.
+  // Chunks that takeChanged() has still to look at, as far as follow() knows.
   size_t changedCount() const { return changed_.size(); }
-  // Extracts up to max_count of the changed chunks, those that changed first before the others. A chunk that
-  // has no surface and had none is not reported.
+  // Follows the map, and extracts up to max_count of the changed chunks, those that changed first before the
+  // others. A chunk that has no surface and had none is not reported.
   std::vector<MeshChunk> takeChanged(size_t max_count);
 
   size_t deviceBytes() const;
@@ -57,19 +60,25 @@ class MeshChunks {
   using ChunkSet = std::unordered_set<MeshChunkIndex, Hash>;
   struct Extraction;
 
-  // The chunks that look at the block: its own, and others to whose cells and normals it lends its voxels.
-  void noteAround(const BlockSparseMap::BlockIndex& block);
-  // The blocks of the chunks to be extracted.
+  void note(const MeshChunkIndex& chunk);
+  // Notes the chunks that look at the block: its own, and others to whose cells and normals it lends its
+  // voxels.
+  void noteAround(const BlockIndex& block);
+  void noteShown();
+  void forgetAll();
+  // The next chunks to be extracted, with their blocks.
   std::vector<Extraction> takeExtractions(size_t max_count);
   TriangleMesh extract(Extraction& extraction);
 
-  BlockSparseMap& map_;
+  BlockMap& map_;
+  MapSubscription changes_;
+  uint32_t generation_ = 0;
   int blocks_per_axis_;
   std::unique_ptr<SurfaceMeshKernels> kernels_;
   std::deque<MeshChunkIndex> changed_;  // in the order of their first change
   ChunkSet is_changed_;
   ChunkSet has_surface_;                 // as reported last
-  std::vector<MeshChunkIndex> in_turn_;  // those that noteNext() has still to come to
+  std::vector<MeshChunkIndex> in_turn_;  // chunks that noteNext() has still to come to
 };
 
 }  // namespace depth_fusion

@@ -5,11 +5,11 @@
 
 namespace depth_fusion {
 
-// What becomes of the vertices at the mesh's open borders. Those of a mesh that is simplified piece by piece
-// must stay.
+// What becomes of the vertices at the mesh's open borders. They must stay if a mesh is simplified piece by
+// piece.
 enum class OpenBorders { kMayMove, kStay };
 
-// Whether depth_fusion was built with meshoptimizer, which does it.
+// Whether depth_fusion was built with meshoptimizer, which simplifies meshes.
 bool canSimplify();
 
 // The share `ratio`, above 0 and up to 1, of the mesh's triangles, or as few more as its topology allows:

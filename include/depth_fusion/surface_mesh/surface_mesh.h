@@ -1,7 +1,7 @@
 // Marching cubes over the block-sparse map.
 #pragma once
 
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 #include "depth_fusion/surface_mesh/surface_mesh_parameters.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
 
@@ -19,7 +19,7 @@ struct MeshStatistics {
 // has no cracks, and closed surfaces are watertight. The same map gives the same bytes on the same device.
 // The voxels must not change meanwhile. Throws Error if the mesh has more than 2^31 - 1 vertices or the sink
 // fails. The vertices have colours if the map has.
-MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockSparseMap& map, MeshSink& sink,
+MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockMap& map, MeshSink& sink,
                                  SurfaceMeshParameters parameters = {});
 
 }  // namespace depth_fusion

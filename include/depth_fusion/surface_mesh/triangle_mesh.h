@@ -60,7 +60,7 @@ struct TriangleMesh final : MeshSink {
   void finish() override {}
 };
 
-// The whole of it in one piece.
+// Sends the whole mesh in one piece.
 inline void sendMesh(const TriangleMesh& mesh, MeshSink& sink) {
   const bool colored = !mesh.colors.empty();
   sink.begin({mesh.vertices.size(), mesh.triangles.size(), colored});

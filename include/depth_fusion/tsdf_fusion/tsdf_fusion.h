@@ -4,22 +4,24 @@
 #include <memory>
 
 #include "depth_fusion/common/stage_timers.h"
+#include "depth_fusion/frames/depth_frame.h"
 #include "depth_fusion/frames/mapping_result.h"
 #include "depth_fusion/geometry/pose.h"
-#include "depth_fusion/map/block_sparse_map.h"
-#include "depth_fusion/frames/depth_frame.h"
+#include "depth_fusion/map/block_map.h"
 #include "depth_fusion/tsdf_fusion/tsdf_fusion_parameters.h"
 
 namespace depth_fusion {
+
+class BlockSelection;
 
 class TsdfFusion {
  public:
   class Kernels;  // typed launches, private to the library and its tests
 
-  TsdfFusion(ComputeContext& compute, BlockSparseMap& map, const TsdfFusionParameters& parameters);
+  TsdfFusion(ComputeContext& compute, BlockMap& map, const TsdfFusionParameters& parameters);
   ~TsdfFusion();
 
-  // For the frames to come. Throws Error if rule or distance are others than before.
+  // The parameters are for the frames to come. Throws Error if rule or distance are others than before.
   void setParameters(const TsdfFusionParameters& parameters);
 
   // Fuses the frame's measurements, seen from T_W_D, into the map; allocates the blocks it needs and releases
@@ -33,10 +35,11 @@ class TsdfFusion {
   void allocateBlocks(const DepthFrame& frame, const Pose& T_W_D, FusionResult& result);
 
   ComputeContext& compute_;
-  BlockSparseMap& map_;
+  BlockMap& map_;
   TsdfFusionParameters parameters_;
-  DeviceBuffer requests_, visible_, empty_, count_, points_outside_;
+  DeviceBuffer visible_, empty_, count_;
   std::unique_ptr<Kernels> kernels_;
+  std::unique_ptr<BlockSelection> selection_;
   int frame_number_ = 0;
 };
 

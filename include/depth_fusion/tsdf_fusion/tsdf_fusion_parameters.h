@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "depth_fusion/common/parameters.h"
 
@@ -19,5 +20,8 @@ struct TsdfFusionParameters {
 
   ParameterTable table();
 };
+
+// The values that TsdfFusionParameters::rule takes.
+std::vector<std::string> fusionRules();
 
 }  // namespace depth_fusion

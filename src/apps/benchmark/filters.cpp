@@ -1,6 +1,7 @@
 #include "apps/benchmark/filters.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/tsdf_fusion/tsdf_fusion_parameters.h"
 #include "tools/evaluation/wall_experiment.h"
 #include "tools/plots/line_plot.h"
 
@@ -17,7 +19,13 @@ namespace {
 constexpr double kSigma_m = 0.0019;  // of a Kinect at 1 m
 constexpr int kFrames = 200;
 constexpr int kTail = 50;
-const std::vector<std::string> kRules = {"average", "weighted", "kalman"};
+
+// The simplest comes first.
+std::vector<std::string> rulesByComplexity() {
+  std::vector<std::string> rules = fusionRules();
+  std::reverse(rules.begin(), rules.end());
+  return rules;
+}
 
 struct FiltersArguments {
   std::string output = "docs";
@@ -62,7 +70,7 @@ PlotLine underGrowingNoise(ComputeContext& compute, const std::string& name, con
 void compareUnderGrowingNoise(ComputeContext& compute, const std::string& folder) {
   LinePlot plot{
       "noise grows from 1.9 to 6.1 mm; all filters begin with a gain of 0.05", "frame", "RMS error [mm]", {}};
-  for (const std::string& rule : kRules) {
+  for (const std::string& rule : rulesByComplexity()) {
     plot.lines.push_back(underGrowingNoise(compute, rule, rule, rule == "kalman"));
   }
   plot.lines.push_back(underGrowingNoise(compute, "weighted, told", "weighted", true));
@@ -81,7 +89,7 @@ void qualityAgainstResponse(ComputeContext& compute, const std::string& folder) 
                 "error of all frames [mm]",
                 {}};
   LinePlot history{"a wall moves by 4 mm; gain 0.05", "frame", "RMS error [mm]", {}};
-  for (const std::string& rule : kRules) {
+  for (const std::string& rule : rulesByComplexity()) {
     PlotLine line{rule, {}};
     for (const double gain : {0.02, 0.03, 0.05, 0.08, 0.13, 0.2, 0.3, 0.4}) {
       const auto errors = runWallExperiment(compute, experiment, filterOfGain(rule, gain, kSigma_m));

@@ -21,7 +21,7 @@ struct StageTimes {
 
 struct Outcome {
   MapParameters map;
-  BlockSparseMap::Usage usage;
+  BlockMap::Usage usage;
   size_t frames = 0, lost = 0;
   size_t left_out = 0;  // blocks that the pool had no room for
   StageTimes times;

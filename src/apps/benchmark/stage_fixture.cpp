@@ -80,7 +80,7 @@ StageFixture::StageFixture(ComputeContext& compute, const TrackingInput& input)
       next_frame_(frameNumber(input, kFusedFrames)),
       pipeline_(compute, fixtureParameters(input), frame_.intrinsics),
       T_W_D_(fuseFirstFrames(pipeline_, input)),
-      fused_map_(pipeline_.map().snapshot()),
+      fused_map_(pipeline_.map().snapshot({kTsdfLayer, kColorLayer})),
       parameters_(pipeline_.parameters()),
       bent_frame_(throughLenses(frame_)),
       beside_frame_(besideColor(frame_)),

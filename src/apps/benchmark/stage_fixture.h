@@ -47,8 +47,8 @@ class StageFixture {
   StageTimers timers_;
   RgbdFrame frame_, next_frame_;  // the last that was fused, and the one after it
   ReconstructionPipeline pipeline_;
-  Pose T_W_D_;                                 // of frame_
-  std::unique_ptr<BlockSparseMap> fused_map_;  // as it is before fusion goes on, for the stages that read it
+  Pose T_W_D_;                           // of frame_
+  std::unique_ptr<BlockMap> fused_map_;  // as it is before fusion goes on, for the stages that read it
   PipelineParameters parameters_;
   RgbdFrame bent_frame_, beside_frame_;  // frame_ as if through lenses, and with the colour camera elsewhere
   FrameRegistration rectification_, depth_to_color_;

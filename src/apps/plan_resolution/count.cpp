@@ -128,7 +128,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
     PipelineParameters parameters = options.parameters;
     parameters.map = row.map;
     parameters.map.pool_mib = poolMebibytes(row);
-    std::unique_ptr<BlockSparseMap> map;
+    std::unique_ptr<BlockMap> map;
     std::unique_ptr<Mapper> mapper;
     MotionModel motion;
     std::unique_ptr<DepthPreprocessor> preprocessor;
@@ -137,7 +137,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
         "trying N " + std::to_string(row.map.blocks_per_axis) + ", M " + std::to_string(row.map.block_size),
         [&](const RgbdFrame& frame, const Pose& T_W_D) {
           if (!map) {
-            map = std::make_unique<BlockSparseMap>(compute, parameters.map);
+            map = std::make_unique<BlockMap>(compute, parameters.map);
             mapper = std::make_unique<Mapper>(compute, *map, parameters, frame.intrinsics);
             preprocessor = preprocessorOf(frame, compute, parameters);
           }

@@ -45,7 +45,7 @@ size_t peakRssBytes() {
 
 void writeReport(const std::string& path, const std::string& input, ComputeContext& compute,
                  ReconstructionPipeline& pipeline, const RunCounts& counts, size_t tracking_peak_rss_bytes) {
-  const BlockSparseMap::Usage usage = pipeline.map().usage();
+  const BlockMap::Usage usage = pipeline.map().usage();
   nlohmann::ordered_json stages;
   nlohmann::ordered_json frame;
   for (const auto& [stage, samples_ms] : pipeline.timers().samplesMs()) {
@@ -67,7 +67,7 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
                                           {{"blocks", usage.blocks},
                                            {"capacity", usage.capacity},
                                            {"bytes", usage.bytes},
-                                           {"color_bytes", usage.color_bytes},
+                                           {"color_bytes", usage.bytesOf(kColorLayer)},
                                            {"pool_bytes", usage.pool_bytes}}},
                                          {"peak_rss_bytes", peakRssBytes()},
                                          {"tracking_peak_rss_bytes", tracking_peak_rss_bytes}};

@@ -34,7 +34,7 @@ TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingRe
   return status;
 }
 
-void setUsage(MapStatus& status, const BlockSparseMap::Usage& usage) {
+void setUsage(MapStatus& status, const BlockMap::Usage& usage) {
   status.blocks = usage.blocks;
   status.blocks_free = usage.capacity - usage.blocks;
   status.bytes = usage.bytes;

@@ -6,12 +6,12 @@
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
 #include "depth_fusion/icp_tracking/icp_tracker.h"
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 
 namespace depth_fusion {
 
 TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingResult& result);
-void setUsage(MapStatus& status, const BlockSparseMap::Usage& usage);
+void setUsage(MapStatus& status, const BlockMap::Usage& usage);
 
 // Set level, summary and values. `problem` hinders frames before they get that far; empty if nothing does.
 // `advice`: what to do if the frame is lost.

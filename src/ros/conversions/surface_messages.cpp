@@ -93,12 +93,12 @@ Marker makeDeletionOfAll(const std::string& frame_id) {
   return makeMarker(frame_id, kSurfaceMarkers, 0, Marker::DELETEALL);
 }
 
-Marker makeBlockMarker(const std::string& frame_id, const BlockSparseMap& map) {
+Marker makeBlockMarker(const std::string& frame_id, const BlockMap& map) {
   Marker marker = makeMarker(frame_id, kBlockMarkers, 0, Marker::ADD);
   marker.type = Marker::CUBE_LIST;
   const float edge_m = map.parameters().voxel_size_m * static_cast<float>(map.parameters().block_size);
   // A voxel samples its lowest corner, so a block's surface lies in its cube.
-  for (const BlockSparseMap::Block& block : map.blocks())
+  for (const SlotTable::Block& block : map.slots().blocks())
     marker.points.push_back(pointOf(edge_m * (block.index.cast<float>() + Eigen::Vector3f::Constant(0.5f))));
   marker.scale.x = marker.scale.y = marker.scale.z = 0.9 * edge_m;
   marker.color.r = 0.25f;

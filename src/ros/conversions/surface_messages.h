@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
 
 namespace depth_fusion {
@@ -23,7 +23,7 @@ visualization_msgs::Marker makeDeletion(const std::string& frame_id, int id);
 visualization_msgs::Marker makeDeletionOfAll(const std::string& frame_id);
 
 // Shows the map's blocks as a CUBE_LIST.
-visualization_msgs::Marker makeBlockMarker(const std::string& frame_id, const BlockSparseMap& map);
+visualization_msgs::Marker makeBlockMarker(const std::string& frame_id, const BlockMap& map);
 
 // Keeps the first vertex of the mesh in each cube of a grid of that spacing, or all of them for a spacing of
 // 0, and no triangle.

@@ -17,7 +17,7 @@
 
 namespace depth_fusion {
 
-struct SharedMap;
+class SharedMap;
 
 // A depth image with the colour that belongs to it.
 struct SensorFrame {

@@ -18,13 +18,13 @@ constexpr char kPaused[] = "paused";
 Parameter LiveTrackerParameters::useTextureRow() {
   constexpr char kHelp[] =
       "true: frames come from texture_odometry; false: from the topics, with the last pose as the prior";
-  return {"texture_odometry", &use_texture, 0, 1, kHelp, {}, true};
+  return atStartOnly(flag("texture_odometry", &use_texture, kHelp));
 }
 
 Parameter LiveTrackerParameters::onClockJumpRow() {
   constexpr char kHelp[] =
       "what a clock that goes back does to the map: begin anew, or keep it and find the sensor in it";
-  return {"on_clock_jump", &on_clock_jump, 0, 0, kHelp, {"reset", "keep"}};
+  return choice("on_clock_jump", &on_clock_jump, {"reset", "keep"}, kHelp);
 }
 
 PipelineParameters LiveTracker::pipelineParameters() const {
@@ -140,11 +140,12 @@ void LiveTracker::changeMap(const std::shared_ptr<const MapView>& map) {
 const ModelView& LiveTracker::render(const Pose& T_W_D) {
   const std::shared_ptr<SharedMap> map = map_->map.lock();
   check(map != nullptr, "the map is gone; load tsdf_fusion again");
-  StageTimers timers;
-  const std::lock_guard<std::mutex> lock(map->mutex);
-  Mapper& mapper = map->mapper(camera_);
-  mapper.render(T_W_D, timers);
-  rendered_ = mapper.renderer().view();
+  map->locked([&](FusedMap& fused) {
+    StageTimers timers;
+    Mapper& mapper = fused.mapper(camera_);
+    mapper.render(T_W_D, timers);
+    rendered_ = mapper.renderer().view();
+  });
   return *rendered_;
 }
 

@@ -1,6 +1,5 @@
 #include "ros/in_process/shared_map.h"
 
-#include <algorithm>
 #include <map>
 
 namespace depth_fusion {
@@ -30,41 +29,22 @@ std::shared_ptr<ComputeContext> sharedCompute(const std::string& device) {
   return context;
 }
 
-uint32_t newGeneration() {
-  static std::atomic<uint32_t> last{0};
-  return ++last;
-}
-
-void SharedMap::reset() {
-  map.reset(Eigen::Vector3d::Zero());
-  generation = newGeneration();
+void FusedMap::reset() {
+  map_.reset(Eigen::Vector3d::Zero());
   mapper_.reset();
 }
 
-Mapper& SharedMap::mapper(const CameraIntrinsics& camera) {
+Mapper& FusedMap::mapper(const CameraIntrinsics& camera) {
   if (mapper_ == nullptr || !sameCamera(camera, camera_)) {
-    mapper_ = std::make_unique<Mapper>(*compute, map, parameters_, camera);
+    mapper_ = std::make_unique<Mapper>(compute_, map_, parameters_, camera);
     camera_ = camera;
   }
   return *mapper_;
 }
 
-void SharedMap::setParameters(const PipelineParameters& parameters) {
+void FusedMap::setParameters(const PipelineParameters& parameters) {
   if (mapper_ != nullptr) mapper_->setParameters(parameters);
   parameters_ = parameters;
-}
-
-bool SharedMap::isFollowed() {
-  followers_.erase(
-      std::remove_if(followers_.begin(), followers_.end(), [](const auto& f) { return f.expired(); }),
-      followers_.end());
-  return !followers_.empty();
-}
-
-void SharedMap::noteUpdated(const std::vector<int>& slots) {
-  for (const auto& follower : followers_) {
-    if (const std::shared_ptr<MeshChunks> chunks = follower.lock()) chunks->noteUpdated(slots);
-  }
 }
 
 void offerMap(const std::string& name, const std::shared_ptr<SharedMap>& map) {

@@ -1,14 +1,11 @@
 // What the nodelets of one process share: the compute device and the map.
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <vector>
 
 #include "depth_fusion/pipeline/mapper.h"
-#include "depth_fusion/surface_mesh/mesh_chunks.h"
 
 namespace depth_fusion {
 
@@ -16,36 +13,49 @@ namespace depth_fusion {
 // without a device.
 std::shared_ptr<ComputeContext> sharedCompute(const std::string& device);
 
-uint32_t newGeneration();
+// A map and what fuses into it.
+class FusedMap {
+ public:
+  FusedMap(ComputeContext& compute, const PipelineParameters& parameters)
+      : compute_(compute), parameters_(parameters), map_(compute, parameters.map) {}
 
-struct SharedMap {
-  SharedMap(std::shared_ptr<ComputeContext> context, const PipelineParameters& parameters)
-      : compute(std::move(context)), map(*compute, parameters.map), parameters_(parameters) {}
-
-  // The caller of these holds the mutex.
-  // Empties the map.
-  void reset();
-  // For frames of that camera, until the next call or reset(). Throws Error if the device cannot.
+  BlockMap& map() { return map_; }
+  // The mapper for frames of that camera, until the next call or reset(). Throws Error if the device cannot.
   Mapper& mapper(const CameraIntrinsics& camera);
-  // For the frames to come; the map's stay. Throws Error for what cannot change.
+  // Empties the map; a new generation begins.
+  void reset();
+  // The parameters are for the frames to come; the map's stay. Throws Error for what cannot change.
   void setParameters(const PipelineParameters& parameters);
-  // Tells the chunks, as long as somebody holds them, of the blocks that change.
-  void follow(const std::shared_ptr<MeshChunks>& chunks) { followers_.push_back(chunks); }
-  bool isFollowed();
-  void noteUpdated(const std::vector<int>& slots);
-
-  const std::shared_ptr<ComputeContext> compute;
-  std::mutex mutex;  // held by whoever reads or changes the map
-  BlockSparseMap map;
-  std::atomic<uint32_t> generation{
-      newGeneration()};  // another one after every reset, and of every map of the process
-  std::string frame_id;  // of the map's coordinates
 
  private:
+  ComputeContext& compute_;
   PipelineParameters parameters_;
+  BlockMap map_;
   CameraIntrinsics camera_;
   std::unique_ptr<Mapper> mapper_;
-  std::vector<std::weak_ptr<MeshChunks>> followers_;
+};
+
+// A map that several threads work on, one after the other.
+class SharedMap {
+ public:
+  SharedMap(std::shared_ptr<ComputeContext> context, const PipelineParameters& parameters,
+            const std::string& frame)
+      : compute(std::move(context)), frame_id(frame), fused_(*compute, parameters) {}
+
+  // Calls function(FusedMap&) while no other thread has the map, and returns what it returns. No reference
+  // into the map may outlive the call but to be used in another one.
+  template <class Function>
+  auto locked(const Function& function) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return function(fused_);
+  }
+
+  const std::shared_ptr<ComputeContext> compute;
+  const std::string frame_id;  // of the map's coordinates
+
+ private:
+  std::mutex mutex_;
+  FusedMap fused_;
 };
 
 // Makes the map known by the resolved name of the nodelet that has it.

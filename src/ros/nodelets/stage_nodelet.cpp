@@ -45,12 +45,13 @@ void StageNodelet::loadParameters(const ParameterTable& own,
 }
 
 Parameter StageNodelet::deviceRow(std::string& device) {
-  return {"device", &device, 0, 0, "OpenCL device: index, part of its name, cpu or gpu; empty: the best",
-          {},       true};
+  return atStartOnly(
+      text("device", &device, "OpenCL device: index, part of its name, cpu or gpu; empty: the best"));
 }
 
 Parameter StageNodelet::queueSizeRow(int& frames) {
-  return {"queue_size", &frames, 1, 1000, "frames that wait at most; the oldest are dropped", {}, true};
+  return atStartOnly(
+      number("queue_size", &frames, 1, 1000, "frames that wait at most; the oldest are dropped"));
 }
 
 void StageNodelet::refuseFromOtherProcess(const std::string& sender, Carries what) {

@@ -5,11 +5,10 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-#include "depth_fusion/surface_mesh/simplification.h"
-#include "ros/output/live_surface.h"
-#include "ros/output/mesh_export.h"
 #include "ros/nodelets/stage_nodelet.h"
-#include "ros/conversions/surface_messages.h"
+#include "ros/nodelets/surface_mesh_nodelet_parameters.h"
+#include "ros/output/mesh_export.h"
+#include "ros/output/surface_publisher.h"
 
 namespace depth_fusion {
 
@@ -21,17 +20,12 @@ class SurfaceMeshNodelet : public StageNodelet {
   void start() override;
   void applyParameters() override;
   void betweenFrames(const std::function<void()>& action) override;
-  void loadAll();
-  void checkParameters() const;
   void advertise();
   // The map of the nodelet tsdf_fusion; null without one.
-  std::shared_ptr<SharedMap> findFusionMap() const { return findMap(map_name_); }
+  std::shared_ptr<SharedMap> findFusionMap() const { return findMap(parameters_.map); }
+  std::string noMapReason() const;
 
-  // In the timer's thread:
-  void update();
-  void publishSurface(const std::shared_ptr<SharedMap>& map, bool with_markers, bool with_points);
-  void publishBlocks(SharedMap& map);
-
+  void update();  // in the timer's thread
   // In the service's thread:
   bool serveExport(ExportMesh::Request& request, ExportMesh::Response& response);
   ExportMesh::Response exportNow(const ExportMesh::Request& request);
@@ -39,21 +33,12 @@ class SurfaceMeshNodelet : public StageNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
   std::mutex work_mutex_;  // held during an update, and while parameters change
-  SurfaceMeshParameters mesh_;
-  LiveSurfaceParameters live_;
-  float publish_rate_hz_ = 2.0f;
-  float points_rate_hz_ = 1.0f;
-  std::string map_name_;
-
-  std::unique_ptr<LiveSurface> surface_;  // while somebody looks
-  ros::WallTime last_points_, last_blocks_;
-  std::atomic<bool> has_late_viewer_{false};
-
+  SurfaceMeshNodeletParameters parameters_;
+  std::unique_ptr<SurfacePublisher> surface_;
   std::mutex status_mutex_;
   std::string problem_;  // of the last update or export
   std::string last_export_;
 
-  ros::Publisher marker_publisher_, point_publisher_, block_publisher_;
   ros::WallTimer update_timer_;
   ros::CallbackQueue export_queue_;
   ros::ServiceServer export_server_;
@@ -68,41 +53,19 @@ SurfaceMeshNodelet::~SurfaceMeshNodelet() {
 }
 
 void SurfaceMeshNodelet::start() {
-  loadAll();
-  checkParameters();
-  if (map_name_.empty()) map_name_ = getNodeHandle().resolveName("tsdf_fusion");
+  loadParameters(parameters_.table());
+  parameters_.checkTogether();
+  if (parameters_.map.empty()) parameters_.map = getNodeHandle().resolveName("tsdf_fusion");
   advertise();
-  update_timer_ = getMTPrivateNodeHandle().createWallTimer(ros::WallDuration(1.0 / publish_rate_hz_),
-                                                           [this](const ros::WallTimerEvent&) { update(); });
+  update_timer_ = getMTPrivateNodeHandle().createWallTimer(
+      ros::WallDuration(1.0 / parameters_.publish_rate_hz), [this](const ros::WallTimerEvent&) { update(); });
   startReporting();
 }
 
-void SurfaceMeshNodelet::loadAll() {
-  ParameterTable table = mesh_.table();
-  for (const Parameter& row : live_.table()) table.push_back(row);
-  table.push_back({"map",
-                   &map_name_,
-                   0,
-                   0,
-                   "the nodelet that has the map; empty: tsdf_fusion beside this one",
-                   {},
-                   true});
-  table.push_back({"publish_rate_hz", &publish_rate_hz_, 0.1, 30.0, "of updates of the markers"});
-  table.push_back(
-      {"points_rate_hz", &points_rate_hz_, 0.01, 30.0, "of the points and the blocks' boxes, at most"});
-  loadParameters(table);
-}
-
-void SurfaceMeshNodelet::checkParameters() const {
-  check(
-      live_.triangle_share == 1.0f || canSimplify(),
-      "triangle_share must be 1: this depth_fusion was built without meshoptimizer, which simplifies meshes");
-}
-
 void SurfaceMeshNodelet::applyParameters() {
-  checkParameters();
-  surface_.reset();  // the next update shows all of it anew
-  update_timer_.setPeriod(ros::WallDuration(1.0 / publish_rate_hz_));
+  parameters_.checkTogether();
+  surface_->beginAnew();
+  update_timer_.setPeriod(ros::WallDuration(1.0 / parameters_.publish_rate_hz));
 }
 
 void SurfaceMeshNodelet::betweenFrames(const std::function<void()>& action) {
@@ -111,12 +74,7 @@ void SurfaceMeshNodelet::betweenFrames(const std::function<void()>& action) {
 }
 
 void SurfaceMeshNodelet::advertise() {
-  ros::NodeHandle& handle = getMTPrivateNodeHandle();
-  // roscpp tells of a process's first subscriber to a topic; further ones have to wait for refresh_chunks.
-  const auto noteViewer = [this](const ros::SingleSubscriberPublisher&) { has_late_viewer_ = true; };
-  marker_publisher_ = handle.advertise<visualization_msgs::MarkerArray>("markers", 20, noteViewer);
-  point_publisher_ = handle.advertise<sensor_msgs::PointCloud2>("points", 1, noteViewer);
-  block_publisher_ = handle.advertise<visualization_msgs::Marker>("blocks", 1);
+  surface_ = std::make_unique<SurfacePublisher>(getMTPrivateNodeHandle());
   ros::NodeHandle export_handle = getPrivateNodeHandle();
   export_handle.setCallbackQueue(&export_queue_);
   export_server_ = export_handle.advertiseService("export_mesh", &SurfaceMeshNodelet::serveExport, this);
@@ -124,55 +82,26 @@ void SurfaceMeshNodelet::advertise() {
   export_spinner_->start();
 }
 
+std::string SurfaceMeshNodelet::noMapReason() const {
+  return "no map of " + parameters_.map +
+         " in this process; load tsdf_fusion in the same nodelet manager, or set ~map";
+}
+
 void SurfaceMeshNodelet::update() {
   std::string problem;
+  StageTimers timers;
   try {
-    const std::lock_guard<std::mutex> lock(work_mutex_);
-    const std::shared_ptr<SharedMap> map = findFusionMap();
-    publishSurface(map, marker_publisher_.getNumSubscribers() > 0, point_publisher_.getNumSubscribers() > 0);
-    if (map != nullptr && block_publisher_.getNumSubscribers() > 0) publishBlocks(*map);
+    betweenFrames([&] {
+      surface_->update(findFusionMap(), parameters_.live, parameters_.mesh, parameters_.points_rate_hz,
+                       timers);
+    });
   } catch (const std::exception& error) {
     problem = error.what();
     NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << problem);
   }
+  recordTimings(timers);
   const std::lock_guard<std::mutex> lock(status_mutex_);
   problem_ = problem;
-}
-
-void SurfaceMeshNodelet::publishSurface(const std::shared_ptr<SharedMap>& map, bool with_markers,
-                                        bool with_points) {
-  if (map == nullptr || !(with_markers || with_points)) return surface_.reset();
-  StageTimers timers;
-  {
-    const StageTimers::Scope timer(timers, "surface_mesh/update");
-    if (surface_ == nullptr || !surface_->follows(map))
-      surface_ = std::make_unique<LiveSurface>(map, live_, mesh_);
-    if (has_late_viewer_.exchange(false)) surface_->showAll();
-    const visualization_msgs::MarkerArrayPtr markers = surface_->update(with_markers, with_points);
-    if (!markers->markers.empty()) marker_publisher_.publish(markers);
-  }
-  const ros::WallTime now = ros::WallTime::now();
-  if (with_points && (now - last_points_).toSec() >= 1.0 / points_rate_hz_) {
-    const StageTimers::Scope timer(timers, "surface_mesh/points");
-    last_points_ = now;
-    std_msgs::Header header;
-    header.stamp = ros::Time::now();
-    header.frame_id = map->frame_id;
-    point_publisher_.publish(surface_->points(header));
-  }
-  recordTimings(timers);
-}
-
-void SurfaceMeshNodelet::publishBlocks(SharedMap& map) {
-  const ros::WallTime now = ros::WallTime::now();
-  if ((now - last_blocks_).toSec() < 1.0 / points_rate_hz_) return;
-  last_blocks_ = now;
-  const auto marker = boost::make_shared<visualization_msgs::Marker>();
-  {
-    const std::lock_guard<std::mutex> lock(map.mutex);
-    *marker = makeBlockMarker(map.frame_id, map.map);
-  }
-  block_publisher_.publish(marker);
 }
 
 bool SurfaceMeshNodelet::serveExport(ExportMesh::Request& request, ExportMesh::Response& response) {
@@ -193,10 +122,9 @@ ExportMesh::Response SurfaceMeshNodelet::exportNow(const ExportMesh::Request& re
   {
     const StageTimers::Scope timer(timers, "surface_mesh/export");
     const std::shared_ptr<SharedMap> map = findFusionMap();
-    check(map != nullptr, "no map of " + map_name_ +
-                              " in this process; load tsdf_fusion in the same nodelet manager, or set ~map");
+    check(map != nullptr, noMapReason());
     SurfaceMeshParameters parameters;
-    betweenFrames([&] { parameters = mesh_; });
+    betweenFrames([&] { parameters = parameters_.mesh; });
     response = exportMesh(*map, request, parameters);
   }
   recordTimings(timers);
@@ -210,12 +138,10 @@ void SurfaceMeshNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& s
   if (!problem_.empty()) {
     status.summary(DiagnosticStatus::ERROR, problem_);
   } else if (map == nullptr) {
-    status.summary(DiagnosticStatus::WARN,
-                   "no map of " + map_name_ +
-                       " in this process; load tsdf_fusion in the same nodelet manager, or set ~map");
+    status.summary(DiagnosticStatus::WARN, noMapReason());
   }
-  status.add("viewers of markers", marker_publisher_.getNumSubscribers());
-  status.add("viewers of points", point_publisher_.getNumSubscribers());
+  status.add("viewers of markers", surface_->markerViewers());
+  status.add("viewers of points", surface_->pointViewers());
   if (!last_export_.empty()) status.add("last export", last_export_);
 }
 

@@ -50,13 +50,8 @@ void TextureOdometryNodelet::start() {
   ParameterTable table = parameters_.table();
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
   table.push_back(deviceRow(device_));
-  table.push_back({"odom_frame",
-                   &odom_frame_,
-                   0,
-                   0,
-                   "frame of the odometry: where the sensor was in the first frame",
-                   {},
-                   true});
+  table.push_back(atStartOnly(
+      text("odom_frame", &odom_frame_, "frame of the odometry: where the sensor was in the first frame")));
   table.push_back(queueSizeRow(queue_size_));
   loadParameters(table,
                  {{"registration", rgbd_.registration.table()}, {"depth_sensor", depth_sensor_.table()}});

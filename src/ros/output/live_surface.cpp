@@ -28,16 +28,15 @@ ParameterTable LiveSurfaceParameters::table() {
 LiveSurface::LiveSurface(const std::shared_ptr<SharedMap>& map, const LiveSurfaceParameters& live,
                          const SurfaceMeshParameters& mesh)
     : parameters_(live), map_(map) {
-  const std::lock_guard<std::mutex> lock(map->mutex);
-  chunks_ = std::make_shared<MeshChunks>(*map->compute, map->map, mesh, live.chunk_blocks);
-  map->follow(chunks_);
+  map->locked([&](FusedMap& fused) {
+    chunks_ = std::make_unique<MeshChunks>(*map->compute, fused.map(), mesh, live.chunk_blocks);
+  });
 }
 
 void LiveSurface::showAll() {
   const std::shared_ptr<SharedMap> map = map_.lock();
   if (map == nullptr) return;
-  const std::lock_guard<std::mutex> lock(map->mutex);
-  chunks_->noteAll();
+  map->locked([this](FusedMap&) { chunks_->noteAll(); });
 }
 
 MarkerArrayPtr LiveSurface::update(bool with_markers, bool with_points) {
@@ -46,7 +45,7 @@ MarkerArrayPtr LiveSurface::update(bool with_markers, bool with_points) {
   if (map == nullptr) return markers;
   if (beginAnew(*map) && with_markers) markers->markers.push_back(makeDeletionOfAll(map->frame_id));
   if (!with_points) points_.clear();
-  if (with_markers) refresh(*map);
+  if (with_markers) refresh();
   for (int i = 0; i < parameters_.chunks_per_update; ++i) {
     for (const MeshChunk& chunk : takeChunk(*map)) {
       if (with_markers) markers->markers.push_back(markerOf(map->frame_id, chunk));
@@ -57,18 +56,15 @@ MarkerArrayPtr LiveSurface::update(bool with_markers, bool with_points) {
 }
 
 bool LiveSurface::beginAnew(SharedMap& map) {
-  const std::lock_guard<std::mutex> lock(map.mutex);
-  if (generation_ == map.generation) return false;
-  generation_ = map.generation;
-  chunks_->noteReset();
-  chunks_->noteAll();
+  map.locked([this](FusedMap&) { chunks_->follow(); });
+  if (generation_ == chunks_->generation()) return false;
+  generation_ = chunks_->generation();
   marker_ids_.clear();
   points_.clear();
   return true;
 }
 
-void LiveSurface::refresh(SharedMap& map) {
-  const std::lock_guard<std::mutex> lock(map.mutex);
+void LiveSurface::refresh() {
   const size_t room = static_cast<size_t>(parameters_.chunks_per_update);
   if (chunks_->changedCount() < room)
     chunks_->noteNext(std::min<size_t>(parameters_.refresh_chunks, room - chunks_->changedCount()));
@@ -76,9 +72,9 @@ void LiveSurface::refresh(SharedMap& map) {
 
 // One at a time, so that mapping never waits for more.
 std::vector<MeshChunk> LiveSurface::takeChunk(SharedMap& map) {
-  const std::lock_guard<std::mutex> lock(map.mutex);
-  if (generation_ != map.generation) return {};
-  return chunks_->takeChanged(1);
+  return map.locked([this](FusedMap& fused) {
+    return generation_ == fused.map().generation() ? chunks_->takeChanged(1) : std::vector<MeshChunk>();
+  });
 }
 
 visualization_msgs::Marker LiveSurface::markerOf(const std::string& frame_id, const MeshChunk& chunk) {

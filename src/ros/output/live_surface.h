@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "depth_fusion/surface_mesh/mesh_chunks.h"
 #include "ros/in_process/shared_map.h"
 
 namespace depth_fusion {
@@ -31,23 +32,23 @@ class LiveSurface {
   // All chunks count as changed, for viewers that come late.
   void showAll();
   // Takes the next chunks that changed. The first time and after a reset the markers begin with a DELETEALL.
-  // Without `with_markers` they are none; without `with_points` points() has none.
+  // Without `with_markers` there are no markers; without `with_points` points() has none.
   visualization_msgs::MarkerArrayPtr update(bool with_markers, bool with_points);
-  // Of all the chunks taken so far.
+  // The points of all the chunks taken so far.
   sensor_msgs::PointCloud2Ptr points(const std_msgs::Header& header) const;
 
  private:
   // Whether the map was reset since the last time.
   bool beginAnew(SharedMap& map);
-  void refresh(SharedMap& map);
+  void refresh();
   std::vector<MeshChunk> takeChunk(SharedMap& map);
   visualization_msgs::Marker markerOf(const std::string& frame_id, const MeshChunk& chunk);
   void keepPoints(const MeshChunk& chunk);
 
   LiveSurfaceParameters parameters_;
   std::weak_ptr<SharedMap> map_;
-  std::shared_ptr<MeshChunks> chunks_;
-  uint32_t generation_ = 0;  // of the map shown; 0: none yet
+  std::unique_ptr<MeshChunks> chunks_;  // for whoever has the map locked, as far as it reads the map
+  uint32_t generation_ = 0;             // of the map shown; 0: none yet
   std::map<MeshChunkIndex, int> marker_ids_;
   std::map<MeshChunkIndex, TriangleMesh> points_;
 };

@@ -64,13 +64,13 @@ void checkFolder(const std::string& path) {
   check(!fs::is_directory(path), path + " is a folder; give the name of a file");
 }
 
-std::unique_ptr<BlockSparseMap> snapshotOf(SharedMap& map, bool with_color) {
-  std::unique_ptr<BlockSparseMap> snapshot;
-  {
-    const std::lock_guard<std::mutex> lock(map.mutex);
-    check(map.map.usage().blocks > 0, kNoSurface);
-    snapshot = map.map.snapshot(with_color);
-  }
+std::unique_ptr<BlockMap> snapshotOf(SharedMap& map, bool with_color) {
+  std::vector<std::string> layers = {kTsdfLayer};
+  if (with_color) layers.push_back(kColorLayer);
+  std::unique_ptr<BlockMap> snapshot = map.locked([&](FusedMap& fused) {
+    check(fused.map().slots().used() > 0, kNoSurface);
+    return fused.map().snapshot(layers);
+  });
   snapshot->offsets().read<int>(1);  // returns when the copy is made
   return snapshot;
 }
@@ -90,7 +90,7 @@ ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& reque
   const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format);
   CountingSink sink(*file);
 
-  const std::unique_ptr<BlockSparseMap> snapshot = snapshotOf(map, request.color);
+  const std::unique_ptr<BlockMap> snapshot = snapshotOf(map, request.color);
   const std::unique_ptr<ComputeContext> queue = map.compute->anotherQueue();
   SurfaceMeshParameters batches = parameters;
   batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);

@@ -10,7 +10,7 @@ namespace depth_fusion {
 // The path itself if it is absolute, else below ROS_HOME (~/.ros without that variable).
 std::string absolutePath(const std::string& path);
 
-// Writes the surface of the map as it is now. The map's mutex is held for a snapshot only. Throws Error for a
+// Writes the surface of the map as it is now. The map is locked for a snapshot only. Throws Error for a
 // request that cannot be met, and if the file cannot be written; then no file is left.
 ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,
                                 const SurfaceMeshParameters& parameters);

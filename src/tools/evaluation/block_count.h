@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
 

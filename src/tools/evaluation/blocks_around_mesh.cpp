@@ -10,30 +10,27 @@ namespace {
 class MetBlocks {
  public:
   MetBlocks(const MapParameters& map, const Eigen::Vector3d& centre_W)
-      : size_(map.blocks_per_axis), block_vox_(map.block_size), per_voxel_(1.0 / map.voxel_size_m) {
-    for (int axis = 0; axis < 3; ++axis)
-      origin_[axis] = std::floor(centre_W[axis] * per_voxel_ / block_vox_) - size_ / 2;
-    met_.resize(static_cast<size_t>(size_) * size_ * size_);
-  }
+      : window_(Window::centredOn(centre_W, static_cast<double>(map.voxel_size_m) * map.block_size,
+                                  map.blocks_per_axis)),
+        block_vox_(map.block_size),
+        per_voxel_(1.0 / map.voxel_size_m),
+        met_(window_.blockCount()) {}
 
   // A point between the block's first voxels and the next block's is within reach of neither's.
   void meet(const Eigen::Vector3d& p_W) {
     const Eigen::Array3d voxel = p_W.array() * per_voxel_;
     const Eigen::Array3d block = (voxel / block_vox_).floor();
     if (((voxel - block * block_vox_) > block_vox_ - 1).any()) return;
-    const Eigen::Array3d in_window = block - origin_;
-    if ((in_window < 0).any() || (in_window >= size_).any()) return;
-    const Eigen::Array3i index = in_window.cast<int>();
-    met_[index.x() + static_cast<size_t>(size_) * (index.y() + static_cast<size_t>(size_) * index.z())] =
-        true;
+    const BlockIndex index = block.cast<int>();
+    if (window_.contains(index)) met_[window_.address(index)] = true;
   }
 
   size_t count() const { return std::count(met_.begin(), met_.end(), true); }
 
  private:
-  int size_, block_vox_;
+  Window window_;
+  int block_vox_;
   double per_voxel_;
-  Eigen::Array3d origin_;
   std::vector<bool> met_;
 };
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "depth_fusion/map/block_sparse_map.h"
+#include "depth_fusion/map/block_map.h"
 
 namespace depth_fusion {
 

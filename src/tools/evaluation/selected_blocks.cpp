@@ -1,14 +1,10 @@
-#include <algorithm>
 #include <cmath>
 
-#include "map/map_args.h"
 #include "tools/evaluation/block_count.h"
-#include "tsdf_fusion/tsdf_fusion_kernels.h"
+#include "tsdf_fusion/block_selection.h"
 
 namespace depth_fusion {
 namespace {
-
-constexpr int kCapacity = 65536;  // claims a launch
 
 // Mean of |n_x| + |n_y| + |n_z| over all unit normals: the extent of a cube of edge 1 along them.
 constexpr double kMeanCubeExtent = 1.5;
@@ -22,38 +18,27 @@ MapParameters withSmallestPool(MapParameters map) {
 }  // namespace
 
 struct SelectedBlocks::Selection {
-  BlockSparseMap map;
-  DeviceBuffer requests, count, points_outside;
+  BlockMap map;
   TsdfFusion::Kernels kernels;
+  BlockSelection blocks;
 
   Selection(ComputeContext& compute, const MapParameters& parameters)
-      : map(compute, withSmallestPool(parameters)),
-        requests(compute, kCapacity * sizeof(BlockRequest), "block requests"),
-        count(compute, sizeof(int), "a list's length"),
-        points_outside(compute, sizeof(int), "the count of surface points"),
-        kernels(compute, map) {}
+      : map(compute, withSmallestPool(parameters)), kernels(compute, map), blocks(compute, kernels) {}
 };
 
 SelectedBlocks::SelectedBlocks(ComputeContext& compute, const MapParameters& map,
                                const Eigen::Vector3d& centre_W)
     : selection_(std::make_unique<Selection>(compute, map)) {
-  selection_->map.reset(centre_W);
+  selection_->map.placeWindow(centre_W);
 }
 
 SelectedBlocks::~SelectedBlocks() = default;
 
 void SelectedBlocks::add(const DepthFrame& frame, const Pose& T_W_D) {
-  SelectionArgs args = selectionArgs(selection_->map.parameters(), frame.levels[0].camera);
-  args.capacity = kCapacity;
-  for (bool list_was_full = true; list_was_full;) {
-    selection_->count.fill(0, sizeof(int));
-    selection_->points_outside.fill(0, sizeof(int));
-    selection_->kernels.requestBlocks(frame, selection_->map, selection_->requests, selection_->count,
-                                      selection_->points_outside, T_W_D, args);
-    const int count = selection_->count.read<int>(1).front();
-    list_was_full = count > kCapacity;
-    claimed_ += std::min(count, kCapacity);
-  }
+  selection_->blocks.select(frame, selection_->map, T_W_D, [this](const std::vector<BlockIndex>& claimed) {
+    claimed_ += claimed.size();
+    return true;
+  });
 }
 
 size_t SelectedBlocks::kept() const {

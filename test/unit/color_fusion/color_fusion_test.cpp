@@ -40,20 +40,20 @@ TEST(ColorFusion, WithoutColorNothingIsAllocatedAndTheMeshIsTheSame) {
   EXPECT_EQ(
       std::memcmp(plain.vertices.data(), colored.vertices.data(), plain.vertices.size() * sizeof(MeshVertex)),
       0);
-  BlockSparseMap map(compute(), parameters.map);
-  EXPECT_EQ(map.colors().bytes(), 0u);
-  EXPECT_EQ(map.usage().color_bytes, 0u);
+  BlockMap map(compute(), parameters.map);
+  EXPECT_FALSE(map.hasLayer(kColorLayer));
+  EXPECT_EQ(map.usage().bytesOf(kColorLayer), 0u);
 }
 
 TEST(ColorFusion, MapSaysWhatColorCosts) {
   MapParameters parameters = colorParameters().map;
-  BlockSparseMap map(compute(), parameters);
+  BlockMap map(compute(), parameters);
   map.allocate({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-  EXPECT_EQ(map.usage().color_bytes, 3u * 512 * 4);
+  EXPECT_EQ(map.usage().bytesOf(kColorLayer), 3u * 512 * 4);
   EXPECT_EQ(map.usage().bytes, 3u * 512 * 6 + 4 * 64 * 64 * 64);
-  EXPECT_EQ(map.colors().bytes(), 2 * map.voxels().bytes());
+  EXPECT_EQ(map.layer(kColorLayer).bytes(), 2 * map.layer(kTsdfLayer).bytes());
   parameters.color = false;
-  EXPECT_EQ(BlockSparseMap(compute(), parameters).usage().pool_bytes + map.colors().bytes(),
+  EXPECT_EQ(BlockMap(compute(), parameters).usage().pool_bytes + map.layer(kColorLayer).bytes(),
             map.usage().pool_bytes);
 }
 
@@ -173,7 +173,7 @@ TEST(ColorFusion, FramesWithoutFittingColorSayWhyAndChangeNothing) {
   RgbdFrame frame = exactFrame(coloredScene(), swayingPose(0));
   EXPECT_TRUE(pipeline.processFrame(frame, swayingPose(0)).color.fused);
   const std::vector<uint32_t> before =
-      pipeline.map().colors().read<uint32_t>(512 * pipeline.map().slotBound());
+      pipeline.map().layer(kColorLayer).read<uint32_t>(512 * pipeline.map().slots().bound());
   frame.color = frame.color.rowRange(0, 100).clone();
   ColorFusionResult result = pipeline.processFrame(frame, swayingPose(0)).color;
   EXPECT_FALSE(result.fused);
@@ -182,7 +182,7 @@ TEST(ColorFusion, FramesWithoutFittingColorSayWhyAndChangeNothing) {
   result = pipeline.processFrame(frame, swayingPose(0)).color;
   EXPECT_FALSE(result.fused);
   EXPECT_EQ(result.reason, "no colour image");
-  EXPECT_EQ(pipeline.map().colors().read<uint32_t>(before.size()), before);
+  EXPECT_EQ(pipeline.map().layer(kColorLayer).read<uint32_t>(before.size()), before);
 }
 
 // The view from which a frame was fused looks like its image.
@@ -212,7 +212,7 @@ TEST(ColorFusion, ModelViewsShowColorsAndShades) {
 TEST(ColorFusion, MapWithoutColorIsAnError) {
   MapParameters parameters = colorParameters().map;
   parameters.color = false;
-  BlockSparseMap map(compute(), parameters);
+  BlockMap map(compute(), parameters);
   expectError([&] { ColorFusion(compute(), map, {}); }, {"map/color"});
   ModelViewRenderer renderer(compute(), map, kColorTestCamera);
   expectError([&] { renderer.coloredPicture(); }, {"map/color"});
@@ -224,7 +224,7 @@ TEST(ColorFusion, ReusedBlocksForgetTheirColor) {
   ASSERT_GT(pipeline.map().usage().blocks, 100u);
   pipeline.map().reset(Eigen::Vector3d::Zero());
   pipeline.map().allocate({{0, 0, 0}, {1, 0, 0}});
-  const std::vector<uint32_t> colors = pipeline.map().colors().read<uint32_t>(2 * 512);
+  const std::vector<uint32_t> colors = pipeline.map().layer(kColorLayer).read<uint32_t>(2 * 512);
   EXPECT_EQ(colors, std::vector<uint32_t>(colors.size(), 0));
 }
 

@@ -138,7 +138,7 @@ TEST_F(EveryKernel, OfFusionByEveryRuleAndDistance) {
   const DepthFrame& depth = preprocessor.process(roomFrame(0));
   for (const std::string rule : {"kalman", "weighted", "average"}) {
     for (const std::string distance : {"projective", "plane", "refined"}) {
-      BlockSparseMap map(compute, parameters.map);
+      BlockMap map(compute, parameters.map);
       TsdfFusionParameters fusion_parameters;
       fusion_parameters.rule = rule;
       fusion_parameters.distance = distance;
@@ -152,7 +152,7 @@ TEST_F(EveryKernel, OfFusionByEveryRuleAndDistance) {
 TEST_F(EveryKernel, OfFusionIntoLargeBlocks) {
   PipelineParameters parameters = coarseParameters();
   parameters.map.block_size = 16;
-  BlockSparseMap map(compute, parameters.map);
+  BlockMap map(compute, parameters.map);
   DepthPreprocessor preprocessor(compute, parameters.preprocessing, kCamera);
   TsdfFusion fusion(compute, map, TsdfFusionParameters());
   StageTimers timers;
@@ -163,8 +163,8 @@ TEST_F(EveryKernel, OfFusionIntoLargeBlocks) {
 TEST_F(EveryKernel, OfAMapThatIsFull) {
   MapParameters parameters = smallParameters().map;
   parameters.block_size = 32;
-  BlockSparseMap map(compute, parameters);
-  std::vector<BlockSparseMap::BlockIndex> blocks;
+  BlockMap map(compute, parameters);
+  std::vector<BlockIndex> blocks;
   for (int y = -4; y < 4; ++y) {
     for (int x = -4; x < 4; ++x) blocks.emplace_back(x, y, 0);
   }
@@ -175,7 +175,7 @@ TEST_F(EveryKernel, OfAMapThatIsFull) {
 TEST_F(EveryKernel, OfAListOfRequestsThatIsFull) {
   constexpr int kCapacity = 4;
   const PipelineParameters parameters = smallParameters();
-  BlockSparseMap map(compute, parameters.map);
+  BlockMap map(compute, parameters.map);
   DepthPreprocessor preprocessor(compute, parameters.preprocessing, kCamera);
   DeviceBuffer requests(compute, kCapacity * sizeof(BlockRequest), "requests");
   DeviceBuffer count(compute, sizeof(int), "count"), points_outside(compute, sizeof(int), "count");

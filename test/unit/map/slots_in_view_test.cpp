@@ -10,8 +10,6 @@
 namespace depth_fusion {
 namespace {
 
-using BlockIndex = BlockSparseMap::BlockIndex;
-
 constexpr CameraIntrinsics kCamera{64, 48, 60.0, 60.0, 31.5, 23.5};
 constexpr double kBlock_m = 0.08;
 constexpr double kMaxRange_m = 3.0;
@@ -51,7 +49,7 @@ class SlotsInViewOfTwoPlaces : public testing::Test {
     return {groups.begin(), groups.end()};
   }
 
-  BlockSparseMap map_{compute(), parameters()};
+  BlockMap map_{compute(), parameters()};
   SlotsInView in_view_{compute(), map_};
 };
 
@@ -67,7 +65,7 @@ TEST_F(SlotsInViewOfTwoPlaces, AreAllThatHoldABlockInTheImage) {
   for (double turn_rad = -M_PI; turn_rad < M_PI; turn_rad += 0.05) {
     const std::set<int> seen = groupsSeen(turn_rad);
     const Eigen::AngleAxisd to_D(-turn_rad, Eigen::Vector3d::UnitY());
-    for (const BlockSparseMap::Block& block : map_.blocks()) {
+    for (const SlotTable::Block& block : map_.slots().blocks()) {
       const Eigen::Vector3d p_D = to_D * (kBlock_m * (block.index.cast<double>().array() + 0.5).matrix());
       const double u = kCamera.fx * p_D.x() / p_D.z() + kCamera.cx,
                    v = kCamera.fy * p_D.y() / p_D.z() + kCamera.cy;
@@ -80,7 +78,7 @@ TEST_F(SlotsInViewOfTwoPlaces, AreAllThatHoldABlockInTheImage) {
 
 TEST_F(SlotsInViewOfTwoPlaces, FollowBlocksThatComeAndGo) {
   std::vector<int> ahead;
-  for (const BlockSparseMap::Block& block : map_.blocks()) {
+  for (const SlotTable::Block& block : map_.slots().blocks()) {
     if (block.index.z() > 0) ahead.push_back(block.slot);
   }
   map_.release(ahead);
@@ -88,8 +86,8 @@ TEST_F(SlotsInViewOfTwoPlaces, FollowBlocksThatComeAndGo) {
   map_.allocate(blocksAt({20, -2, -2}));
   EXPECT_EQ(groupsSeen(0.0), std::set<int>());
   EXPECT_EQ(groupsSeen(0.5 * M_PI), (std::set<int>{0, 1}));
-  const std::unique_ptr<BlockSparseMap> copy = map_.snapshot();
-  EXPECT_EQ(copy->groupBoxes().size(), map_.groupBoxes().size());
+  const std::unique_ptr<BlockMap> copy = map_.snapshot({kTsdfLayer});
+  EXPECT_EQ(copy->groupBoxes().size(), map_.slots().groupBoxes().size());
   map_.reset(Eigen::Vector3d::Zero());
   EXPECT_EQ(groupsSeen(M_PI), std::set<int>());
 }

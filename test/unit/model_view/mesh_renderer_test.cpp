@@ -5,13 +5,13 @@
 
 #include "depth_fusion/common/percentile.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
-#include "tools/simulation/simulated_recording.h"
 #include "support/rendered_views.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {
 
-Images renderTriangles(BlockSparseMap& map, const Pose& T_W_D, float max_range_m = kMaxRange_m) {
+Images renderTriangles(BlockMap& map, const Pose& T_W_D, float max_range_m = kMaxRange_m) {
   return render(map, T_W_D, max_range_m, "marching_cubes");
 }
 
@@ -63,7 +63,7 @@ TEST(MeshRenderer, ShowsNoSurfaceFromBehind) {
 }
 
 TEST(MeshRenderer, EmptyMapShowsNothing) {
-  BlockSparseMap map(compute(), mapParameters(8));
+  BlockMap map(compute(), mapParameters(8));
   EXPECT_EQ(cv::countNonZero(renderTriangles(map, Pose::Identity()).depth), 0);
 }
 

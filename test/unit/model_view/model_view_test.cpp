@@ -1,13 +1,13 @@
-#include "depth_fusion/model_view/model_view_renderer.h"
+#include "reference/model_view.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "depth_fusion/model_view/model_view_renderer.h"
 #include "model_view/model_view_kernels.h"
 #include "reference/depth_preprocessing.h"
-#include "reference/model_view.h"
 #include "support/rendered_views.h"
 
 namespace depth_fusion {
@@ -106,7 +106,7 @@ TEST(ModelView, WindowMayStandAnywhere) {
 
 TEST(ModelView, ShowsNothingBeyondItsRangeNorBehindTheCamera) {
   expectNothingOutOfRange(
-      [](BlockSparseMap& map, const Pose& T_W_D, float range_m) { return render(map, T_W_D, range_m); });
+      [](BlockMap& map, const Pose& T_W_D, float range_m) { return render(map, T_W_D, range_m); });
 }
 
 TEST(ModelView, ShowsNoSurfaceFromBehind) {
@@ -116,7 +116,7 @@ TEST(ModelView, ShowsNoSurfaceFromBehind) {
 }
 
 TEST(ModelView, EmptyMapShowsNothing) {
-  BlockSparseMap map(compute(), mapParameters(8));
+  BlockMap map(compute(), mapParameters(8));
   EXPECT_EQ(cv::countNonZero(render(map, Pose::Identity()).depth), 0);
 }
 

@@ -90,7 +90,7 @@ class FusedRoom {
   const bool with_texture_;
   PipelineParameters parameters_;
   StageTimers timers_;
-  BlockSparseMap map_;
+  BlockMap map_;
   Mapper mapper_;
   TrackingSession session_;
   std::vector<TexturedFrame> textures_;

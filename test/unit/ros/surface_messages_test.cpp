@@ -71,7 +71,7 @@ TEST(BlockMarker, hasACubeForEachBlock) {
   parameters.voxel_size_m = 0.01f;
   parameters.blocks_per_axis = 16;
   parameters.pool_mib = 1;
-  BlockSparseMap map(compute(), parameters);
+  BlockMap map(compute(), parameters);
   EXPECT_EQ(makeBlockMarker("map", map).action, +Marker::DELETE);
   map.allocate({{0, 0, 0}, {-1, 2, 3}});
   const Marker marker = makeBlockMarker("map", map);

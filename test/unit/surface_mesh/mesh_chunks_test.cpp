@@ -66,7 +66,7 @@ class Viewer {
     return indices;
   }
 
-  void expectTheWholeSurface(BlockSparseMap& map, const SurfaceMeshParameters& parameters = {}) const {
+  void expectTheWholeSurface(BlockMap& map, const SurfaceMeshParameters& parameters = {}) const {
     TriangleMesh whole;
     exportSurfaceMesh(compute(), map, whole, parameters);
     Triangles expected, seen;
@@ -95,6 +95,24 @@ class Viewer {
 
 class MeshChunksTest : public SurfaceMesh {};
 
+// All the blocks of the window that are not in the map come and go.
+void fillWindowAndReleaseAgain(BlockMap& map) {
+  const std::vector<int> offsets = map.offsets().read<int>(map.window().blockCount());
+  const int n = map.window().blocks_per_axis;
+  std::vector<BlockIndex> blocks;
+  for (int i = 0; i < n * n * n; ++i) {
+    const BlockIndex block = map.window().origin + BlockIndex(i % n, i / n % n, i / n / n);
+    if (offsets[map.window().address(block)] == BLOCK_EMPTY) blocks.push_back(block);
+  }
+  map.allocate(blocks);
+  std::vector<int> slots;
+  for (const SlotTable::Block& block : map.slots().blocks()) {
+    if (offsets[map.window().address(block.index)] == BLOCK_EMPTY) slots.push_back(block.slot);
+  }
+  map.offsets().write(offsets);
+  map.release(slots);
+}
+
 struct Sizes {
   int block_size, blocks_per_chunk_axis;
 };
@@ -108,19 +126,19 @@ INSTANTIATE_TEST_SUITE_P(Sizes, MeshChunksOfSize,
 TEST_P(MeshChunksOfSize, areTheWholeSurfaceAfterEveryChange) {
   MapParameters colored = parameters(GetParam().block_size, 32);
   colored.color = true;
-  BlockSparseMap map(compute(), colored);
+  BlockMap map(compute(), colored);
   ChangingMap scene(compute(), map);
-  std::vector<uint8_t> paint(map.colors().bytes());
+  std::vector<uint8_t> paint(map.layer(kColorLayer).bytes());
   for (size_t i = 0; i < paint.size(); ++i)
     paint[i] = static_cast<uint8_t>(i % 4 == 3 ? 9 : i * 2654435761u >> 13);
-  map.colors().write(paint);
+  map.layer(kColorLayer).write(paint);
   MeshChunks chunks(compute(), map, {}, GetParam().blocks_per_chunk_axis);
   Viewer viewer;
   for (const SignedDistance& surface :
        {sphere({0.001, 0.0, 0.0}, 0.07), sphere({0.004, 0.001, -0.002}, 0.0702),
         sphere({0.02, -0.03, 0.01}, 0.05), sphere({-0.05, -0.05, -0.05}, 0.03), nothing(),
         sphere({0.03, 0.03, 0.03}, 0.04)}) {
-    scene.show(surface, [&](const auto& slots) { chunks.noteUpdated(slots); });
+    scene.show(surface);
     viewer.follow(chunks);
     viewer.expectTheWholeSurface(map);
   }
@@ -128,44 +146,43 @@ TEST_P(MeshChunksOfSize, areTheWholeSurfaceAfterEveryChange) {
 }
 
 TEST_F(MeshChunksTest, smallBatchesGiveTheSame) {
-  BlockSparseMap map(compute(), parameters(4));
+  BlockMap map(compute(), parameters(4));
   ChangingMap scene(compute(), map);
   SurfaceMeshParameters small;
   small.max_batch_blocks = 9;
   MeshChunks chunks(compute(), map, small, 8);
   Viewer viewer;
-  scene.show(sphere({0.001, 0.0, 0.0}, 0.07), [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show(sphere({0.001, 0.0, 0.0}, 0.07));
   viewer.follow(chunks);
   viewer.expectTheWholeSurface(map);
 }
 
 TEST_F(MeshChunksTest, surfaceThatIsGoneIsReportedOnce) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   ChangingMap scene(compute(), map);
   MeshChunks chunks(compute(), map, {}, 2);
   Viewer viewer;
-  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07));
   viewer.follow(chunks);
   const ChunkIndices shown = viewer.shown();
   EXPECT_GT(shown.size(), 7u);
-  scene.show(nothing(), [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show(nothing());
   EXPECT_EQ(viewer.follow(chunks), shown);
   EXPECT_TRUE(viewer.shown().empty());
   EXPECT_TRUE(viewer.follow(chunks).empty());
 }
 
 TEST_F(MeshChunksTest, onlyThoseThatChangedAreReported) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   ChangingMap scene(compute(), map);
   MeshChunks chunks(compute(), map, {}, 2);
   Viewer viewer;
   const SignedDistance ball = sphere({0.0, 0.0, 0.0}, 0.07);
   const SignedDistance wart = sphere({0.07, 0.02, 0.02}, 0.006);
-  scene.show(ball, [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show(ball);
   EXPECT_GT(viewer.follow(chunks).size(), 7u);
   EXPECT_TRUE(viewer.follow(chunks).empty());
-  scene.show([&](const Eigen::Vector3d& p) { return std::min(ball(p), wart(p)); },
-             [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show([&](const Eigen::Vector3d& p) { return std::min(ball(p), wart(p)); });
   // Blocks of 4 cm: the wart's truncation band lies in x from 4 to 12 cm, and in y and z from -4 to 4 cm.
   for (const MeshChunkIndex& index : viewer.follow(chunks)) {
     EXPECT_TRUE(index[0] == 0 || index[0] == 1) << index[0];
@@ -176,21 +193,21 @@ TEST_F(MeshChunksTest, onlyThoseThatChangedAreReported) {
 }
 
 TEST_F(MeshChunksTest, oldestChangeComesFirst) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   ChangingMap scene(compute(), map);
   MeshChunks chunks(compute(), map, {}, 2);
   Viewer viewer;
-  scene.show(sphere({-0.08, -0.08, -0.08}, 0.03), [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show(sphere({-0.08, -0.08, -0.08}, 0.03));
+  chunks.follow();
   const size_t first = chunks.changedCount();
   const ChunkIndices near_first = [&] {
     MeshChunks others(compute(), map, {}, 2);
-    others.noteAll();
     return Viewer().follow(others);
   }();
   const SignedDistance both = [](const Eigen::Vector3d& p) {
     return std::min(sphere({-0.08, -0.08, -0.08}, 0.03)(p), sphere({0.08, 0.08, 0.08}, 0.03)(p));
   };
-  scene.show(both, [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show(both);
   EXPECT_EQ(viewer.follow(chunks, first), near_first);
   EXPECT_FALSE(near_first.empty());
   while (chunks.changedCount() > 0) {
@@ -202,10 +219,10 @@ TEST_F(MeshChunksTest, oldestChangeComesFirst) {
 }
 
 TEST_F(MeshChunksTest, allAreReportedAgainToALateReader) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   ChangingMap scene(compute(), map);
   MeshChunks chunks(compute(), map, {}, 2);
-  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07));
   chunks.takeChanged(1000);
   chunks.noteAll();
   Viewer late;
@@ -214,10 +231,10 @@ TEST_F(MeshChunksTest, allAreReportedAgainToALateReader) {
 }
 
 TEST_F(MeshChunksTest, takenInTurnTheyAllComeAgain) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   ChangingMap scene(compute(), map);
   MeshChunks chunks(compute(), map, {}, 2);
-  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07));
   const size_t count = chunks.takeChanged(1000).size();
   Viewer unnoticed;
   for (size_t seen = 0; seen < count; seen += 3) {
@@ -226,30 +243,43 @@ TEST_F(MeshChunksTest, takenInTurnTheyAllComeAgain) {
   }
   unnoticed.expectTheWholeSurface(map);
   map.reset({0.0, 0.0, 0.0});
-  chunks.noteReset();
+  chunks.follow();
   chunks.noteNext(3);
   EXPECT_EQ(chunks.changedCount(), 0u);
 }
 
 TEST_F(MeshChunksTest, resetForgetsThem) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   ChangingMap scene(compute(), map);
   MeshChunks chunks(compute(), map, {}, 2);
   Viewer viewer;
-  scene.show(sphere({0.0, 0.0, 0.0}, 0.07), [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07));
   viewer.follow(chunks, 3);
   map.reset({0.0, 0.0, 0.0});
-  chunks.noteReset();
+  chunks.follow();
   EXPECT_EQ(chunks.changedCount(), 0u);
   EXPECT_TRUE(chunks.takeChanged(1000).empty());
   Viewer fresh;
-  scene.show(sphere({0.03, 0.03, 0.03}, 0.04), [&](const auto& slots) { chunks.noteUpdated(slots); });
+  scene.show(sphere({0.03, 0.03, 0.03}, 0.04));
   fresh.follow(chunks);
   fresh.expectTheWholeSurface(map);
 }
 
+TEST_F(MeshChunksTest, whoHasMissedTooMuchShowsTheWholeSurfaceAllTheSame) {
+  BlockMap map(compute(), parameters(4));
+  ChangingMap scene(compute(), map);
+  MeshChunks chunks(compute(), map, {}, 2);
+  Viewer viewer;
+  scene.show(sphere({-0.03, -0.03, -0.03}, 0.06));
+  viewer.follow(chunks);
+  scene.show(sphere({0.03, 0.03, 0.03}, 0.04));
+  for (int round = 0; round < 4; ++round) fillWindowAndReleaseAgain(map);  // 32768 blocks
+  viewer.follow(chunks);
+  viewer.expectTheWholeSurface(map);
+}
+
 TEST_F(MeshChunksTest, parametersOutOfRangeAreErrors) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   expectError([&] { MeshChunks(compute(), map, {}, 0); }, {"at least one block"});
   SurfaceMeshParameters wrong;
   wrong.min_certainty = 256;
@@ -259,7 +289,7 @@ TEST_F(MeshChunksTest, parametersOutOfRangeAreErrors) {
 // Fusion of a bumpy wall from several places, which is then taken away: free space is carved, and blocks are
 // released.
 TEST(MeshChunksOfFusion, followEveryFrame) {
-  BlockSparseMap map(compute(), mapParameters());
+  BlockMap map(compute(), mapParameters());
   TsdfFusion fusion(compute(), map, {});
   MeshChunks chunks(compute(), map, {}, 4);
   Viewer viewer;
@@ -268,7 +298,7 @@ TEST(MeshChunksOfFusion, followEveryFrame) {
     const cv::Mat depth = frame < 5 ? bumpyDepth(1.2) : wallDepth(1.9);
     const FusionResult result = integrate(fusion, viewOf(depth, somePose(0.1 * (frame % 3))));
     released += result.blocks_released;
-    chunks.noteUpdated(fusion.visibleBlocks().read<int>(result.blocks_updated));
+    map.noteUpdated(fusion.visibleBlocks().read<int>(result.blocks_updated));
     viewer.follow(chunks);
     viewer.expectTheWholeSurface(map);
   }

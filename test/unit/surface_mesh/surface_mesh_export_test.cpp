@@ -17,7 +17,7 @@ bool sameBytes(const TriangleMesh& a, const TriangleMesh& b) {
 }
 
 TEST_F(SurfaceMesh, smallBatchesGiveTheSameBytes) {
-  BlockSparseMap map(compute(), parameters(4));
+  BlockMap map(compute(), parameters(4));
   fillMap(map, sphere({0.001, 0.0, 0.0}, 0.1), Eigen::Vector3i::Constant(-8), 16);
   TriangleMesh whole;
   TriangleMesh pieces;
@@ -31,21 +31,21 @@ TEST_F(SurfaceMesh, smallBatchesGiveTheSameBytes) {
 }
 
 // Gives every colour byte of the pool a value of its own place.
-void paintPool(BlockSparseMap& map) {
-  std::vector<uint8_t> bytes(map.colors().bytes());
+void paintPool(BlockMap& map) {
+  std::vector<uint8_t> bytes(map.layer(kColorLayer).bytes());
   for (size_t i = 0; i < bytes.size(); ++i)
     bytes[i] = static_cast<uint8_t>(i % 4 == 3 ? 9 : i * 2654435761u >> 13);
-  map.colors().write(bytes);
+  map.layer(kColorLayer).write(bytes);
 }
 
 // Releases every other block and gives its slot to a block elsewhere.
-void moveBlocks(BlockSparseMap& map) {
+void moveBlocks(BlockMap& map) {
   std::vector<int> released;
-  std::vector<BlockSparseMap::BlockIndex> elsewhere;
-  for (const BlockSparseMap::Block& block : map.blocks()) {
+  std::vector<BlockIndex> elsewhere;
+  for (const SlotTable::Block& block : map.slots().blocks()) {
     if (block.slot % 2 == 0) continue;
     released.push_back(block.slot);
-    elsewhere.push_back(block.index + BlockSparseMap::BlockIndex(0, 0, 8));
+    elsewhere.push_back(block.index + BlockIndex(0, 0, 8));
   }
   map.release(released);
   map.allocate(elsewhere);
@@ -58,15 +58,15 @@ INSTANTIATE_TEST_SUITE_P(BlockSizes, SnapshotOfBlockSize, testing::Values(4, 8, 
 TEST_P(SnapshotOfBlockSize, keepsTheSurfaceThatTheMapHad) {
   MapParameters colored = parameters(GetParam());
   colored.color = true;
-  BlockSparseMap map(compute(), colored);
+  BlockMap map(compute(), colored);
   fillMap(map, sphere({0.001, 0.0, 0.0}, 0.06), Eigen::Vector3i::Constant(-16 / GetParam() - 1),
           32 / GetParam() + 2);
   paintPool(map);
   const TriangleMesh before = meshOf(map);
-  const auto snapshot = map.snapshot();
-  const auto colorless = map.snapshot(false);
-  map.voxels().fill(0x01010101, map.voxels().bytes());
-  map.colors().fill(0, map.colors().bytes());
+  const auto snapshot = map.snapshot({kTsdfLayer, kColorLayer});
+  const auto colorless = map.snapshot({kTsdfLayer});
+  map.layer(kTsdfLayer).fill(0x01010101, map.layer(kTsdfLayer).bytes());
+  map.layer(kColorLayer).fill(0, map.layer(kColorLayer).bytes());
   moveBlocks(map);
   ASSERT_GT(before.triangles.size(), 1000u);
   ASSERT_EQ(before.colors.size(), before.vertices.size());
@@ -78,15 +78,15 @@ TEST_P(SnapshotOfBlockSize, keepsTheSurfaceThatTheMapHad) {
 }
 
 TEST_F(SurfaceMesh, snapshotIsExportedBesideOtherWork) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   fillMap(map, sphere({0.001, 0.0, 0.0}, 0.08), Eigen::Vector3i::Constant(-4), 8);
   const TriangleMesh before = meshOf(map);
-  const auto snapshot = map.snapshot();
+  const auto snapshot = map.snapshot({kTsdfLayer, kColorLayer});
   snapshot->offsets().read<int>(1);
   const auto queue = compute().anotherQueue();
   std::atomic<bool> done{false};
   std::thread mapping([&] {
-    for (; !done; compute().finish()) map.voxels().fill(0x01010101, map.voxels().bytes());
+    for (; !done; compute().finish()) map.layer(kTsdfLayer).fill(0x01010101, map.layer(kTsdfLayer).bytes());
   });
   for (int i = 0; i < 5; ++i) {
     TriangleMesh mesh;
@@ -98,26 +98,26 @@ TEST_F(SurfaceMesh, snapshotIsExportedBesideOtherWork) {
 }
 
 TEST_F(SurfaceMesh, snapshotTakesMemoryForTheUsedSlotsOnly) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   fillMap(map, sphere(Eigen::Vector3d::Zero(), 0.05), Eigen::Vector3i::Constant(-2), 4);
-  const size_t slots = static_cast<size_t>(map.slotBound());
-  const auto snapshot = map.snapshot();
+  const size_t slots = static_cast<size_t>(map.slots().bound());
+  const auto snapshot = map.snapshot({kTsdfLayer, kColorLayer});
   EXPECT_EQ(snapshot->usage().blocks, map.usage().blocks);
   EXPECT_EQ(snapshot->usage().capacity, slots);
   EXPECT_EQ(snapshot->usage().pool_bytes, 4u * 32 * 32 * 32 + slots * (2 * 512 + 20));
 }
 
 TEST_F(SurfaceMesh, snapshotOfAnEmptyMapIsEmpty) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   map.reset({3.0, -2.0, 1.0});
-  const auto snapshot = map.snapshot();
+  const auto snapshot = map.snapshot({kTsdfLayer, kColorLayer});
   EXPECT_EQ(snapshot->usage().blocks, 0u);
-  EXPECT_EQ(snapshot->origin(), map.origin());
+  EXPECT_EQ(snapshot->window().origin, map.window().origin);
   EXPECT_TRUE(meshOf(*snapshot).triangles.empty());
 }
 
 TEST_F(SurfaceMesh, parametersOutOfRangeAreErrors) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   SurfaceMeshParameters parameters;
   parameters.min_certainty = 256;
   EXPECT_THROW(meshOf(map, parameters), Error);
@@ -133,7 +133,7 @@ TEST_F(SurfaceMesh, failingSinkIsAnError) {
     void addTriangles(const MeshTriangle*, size_t) override {}
     void finish() override { FAIL() << "finished after a failure"; }
   };
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   fillMap(map, sphere(Eigen::Vector3d::Zero(), 0.05), Eigen::Vector3i::Constant(-2), 4);
   FullSink sink;
   EXPECT_THROW(exportSurfaceMesh(compute(), map, sink), Error);
@@ -141,7 +141,7 @@ TEST_F(SurfaceMesh, failingSinkIsAnError) {
 }
 
 TEST_F(SurfaceMesh, emptyMapGivesAnEmptyMesh) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   TriangleMesh mesh;
   const MeshStatistics statistics = exportSurfaceMesh(compute(), map, mesh);
   EXPECT_EQ(statistics.size.vertices, 0u);
@@ -150,7 +150,7 @@ TEST_F(SurfaceMesh, emptyMapGivesAnEmptyMesh) {
 }
 
 TEST_F(SurfaceMesh, reportsItsSize) {
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   fillMap(map, sphere(Eigen::Vector3d::Zero(), 0.05), Eigen::Vector3i::Constant(-2), 4);
   TriangleMesh mesh;
   const MeshStatistics statistics = exportSurfaceMesh(compute(), map, mesh);

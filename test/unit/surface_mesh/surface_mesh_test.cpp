@@ -107,7 +107,7 @@ TEST_P(SurfaceMeshOfBlockSize, sphereIsWatertightExactAndFacesOutward) {
   const int m = GetParam();
   const Eigen::Vector3d centre(0.003, -0.002, 0.001);
   const double radius = 0.12;
-  BlockSparseMap map(compute(), parameters(m));
+  BlockMap map(compute(), parameters(m));
   fillMap(map, sphere(centre, radius), Eigen::Vector3i::Constant(-32 / m), 64 / m);
   const TriangleMesh mesh = meshOf(map);
 
@@ -134,7 +134,7 @@ TEST_P(SurfaceMeshOfBlockSize, equalsTheReference) {
   const int m = GetParam();
   const int blocks = std::max(2, 32 / m);
   const Eigen::Vector3i first = Eigen::Vector3i::Constant(-blocks / 2);
-  BlockSparseMap map(compute(), parameters(m));
+  BlockMap map(compute(), parameters(m));
   for (const SignedDistance& distance :
        {bumps(0.0035), sphere({0.001, 0.002, -0.003}, 0.05), plane({0.3, -0.5, 1.0}, 0.004)}) {
     map.reset(Eigen::Vector3d::Zero());
@@ -153,7 +153,7 @@ TEST_P(SurfaceMeshOfBlockSize, windowThatWrapsAroundChangesNothing) {
   const SignedDistance ball =
       sphere((middle.cast<double>() + Eigen::Vector3d::Constant(0.5)) * block_m, 0.11);
   const Eigen::Vector3i first = middle - Eigen::Vector3i::Constant(32 / m);
-  BlockSparseMap map(compute(), narrow);
+  BlockMap map(compute(), narrow);
   map.reset(middle.cast<double>() * block_m);
   fillMap(map, ball, first, 64 / m + 1);
   const TriangleMesh mesh = meshOf(map);
@@ -164,7 +164,7 @@ TEST_P(SurfaceMeshOfBlockSize, windowThatWrapsAroundChangesNothing) {
 
 TEST_F(SurfaceMesh, bumpsHaveNoDegenerateTrianglesAndNoCracks) {
   const SignedDistance distance = bumps(0.0035);
-  BlockSparseMap map(compute(), parameters(8));
+  BlockMap map(compute(), parameters(8));
   fillMap(map, distance, Eigen::Vector3i::Constant(-2), 4);
   const TriangleMesh mesh = meshOf(map);
   for (const MeshTriangle& triangle : mesh.triangles) EXPECT_GT(areaNormal(mesh, triangle).norm(), 0.0);
@@ -190,7 +190,7 @@ TEST_P(SurfaceMeshOfBlockSize, voxelsBelowTheMinimumWeightAreUnknown) {
     return static_cast<uint8_t>(191 +
                                 (static_cast<unsigned>(v.x() * 73 + v.y() * 179 + v.z() * 283) >> 3) % 32);
   };
-  BlockSparseMap map(compute(), parameters(m));
+  BlockMap map(compute(), parameters(m));
   fillMap(map, ball, first, blocks, weight);
   DenseGrid grid = denseGrid(map.parameters(), ball, first, blocks);
   grid.forEachVoxel([&](const Eigen::Vector3i& voxel) {

@@ -6,22 +6,22 @@
 namespace depth_fusion {
 namespace {
 
-std::vector<BlockIndex> windowBlocks(const BlockSparseMap& map) {
+std::vector<BlockIndex> windowBlocks(const BlockMap& map) {
   const int n = map.parameters().blocks_per_axis;
   std::vector<BlockIndex> blocks;
   for (int i = 0; i < n * n * n; ++i)
-    blocks.push_back(map.origin() + BlockIndex(i % n, i / n % n, i / n / n));
+    blocks.push_back(map.window().origin + BlockIndex(i % n, i / n % n, i / n / n));
   return blocks;
 }
 
-bool inWindow(const BlockSparseMap& map, const BlockKey& key) {
-  const Eigen::Array3i local = (indexOf(key) - map.origin()).array();
+bool inWindow(const BlockMap& map, const BlockKey& key) {
+  const Eigen::Array3i local = (indexOf(key) - map.window().origin).array();
   return (local >= 0).all() && (local < map.parameters().blocks_per_axis).all();
 }
 
 class BlockRequests {
  public:
-  explicit BlockRequests(BlockSparseMap& map)
+  explicit BlockRequests(BlockMap& map)
       : map_(map),
         kernels_(compute(), map),
         list_(compute(), kCapacity * 4 * sizeof(int), "requests"),
@@ -46,7 +46,7 @@ class BlockRequests {
   static constexpr int kCapacity = 20000;
 
  private:
-  BlockSparseMap& map_;
+  BlockMap& map_;
   TsdfFusion::Kernels kernels_;
   DeviceBuffer list_, count_, points_outside_;
 };
@@ -58,7 +58,7 @@ std::set<BlockKey> keysOf(const std::vector<BlockIndex>& blocks) {
 }
 
 // Every block of the reference in the window, but for those that rounding decides, and no other.
-void expectRequests(const BlockSparseMap& map, const View& view, const SelectionArgs& args,
+void expectRequests(const BlockMap& map, const View& view, const SelectionArgs& args,
                     const std::set<BlockKey>& requested) {
   const std::set<BlockKey> possible = blocksInBands(view, map.parameters(), args, 1e-5);
   for (const BlockKey& key : requested) {
@@ -82,7 +82,7 @@ TEST_P(SelectionOfBlockSize, RequestsTheBlocksInTheTruncationBands) {
   const MapParameters parameters = mapParameters(GetParam(), 37, 0.16f / GetParam());
   for (const Eigen::Vector3d& centre : {Eigen::Vector3d(0, 0, 0), {2.1, -1.3, 3.9}, {-2.9, 0.2, 0.7}}) {
     for (const int stride : {1, 3}) {
-      BlockSparseMap map(compute(), parameters);
+      BlockMap map(compute(), parameters);
       map.reset(centre);  // part of the surface lies outside of the window
       const SelectionArgs args{stride, stride == 1 ? 0.0f : 2.0f, 4, BlockRequests::kCapacity};
       const View view = viewOf(bumpyDepth(2.0), somePose());
@@ -97,7 +97,7 @@ TEST_P(SelectionOfBlockSize, RequestsTheBlocksInTheTruncationBands) {
 }
 
 TEST(BlockSelection, RequestsOnlyWhatIsNotAllocated) {
-  BlockSparseMap map(compute(), mapParameters());
+  BlockMap map(compute(), mapParameters());
   BlockRequests requests(map);
   const View view = viewOf(bumpyDepth(1.5), somePose());
   const SelectionArgs args{1, 0.0f, 4, BlockRequests::kCapacity};
@@ -109,10 +109,10 @@ TEST(BlockSelection, RequestsOnlyWhatIsNotAllocated) {
 
 TEST(BlockSelection, FullListIsEmptiedAndFilledAgain) {
   const View view = viewOf(bumpyDepth(1.5), somePose());
-  BlockSparseMap whole(compute(), mapParameters());
+  BlockMap whole(compute(), mapParameters());
   int count = 0;
   const auto expected = keysOf(BlockRequests(whole).of(view, {1, 0.0f, 4, BlockRequests::kCapacity}, count));
-  BlockSparseMap map(compute(), mapParameters());
+  BlockMap map(compute(), mapParameters());
   BlockRequests requests(map);
   const SelectionArgs short_list{1, 0.0f, 4, 17};
   size_t turns = 0;
@@ -125,11 +125,11 @@ TEST(BlockSelection, FullListIsEmptiedAndFilledAgain) {
   }
   EXPECT_GE(turns, expected.size() / 17);
   std::set<BlockKey> allocated;
-  for (const BlockSparseMap::Block& block : map.blocks()) allocated.insert(keyOf(block.index));
+  for (const SlotTable::Block& block : map.slots().blocks()) allocated.insert(keyOf(block.index));
   EXPECT_EQ(allocated, expected);
 }
 
-std::set<int> visibleSlots(BlockSparseMap& map, const DepthFrame& frame, const Pose& T_W_D) {
+std::set<int> visibleSlots(BlockMap& map, const DepthFrame& frame, const Pose& T_W_D) {
   DeviceBuffer list(compute(), map.usage().capacity * sizeof(int), "visible");
   DeviceBuffer count(compute(), sizeof(int), "count");
   count.fill(0, sizeof(int));
@@ -141,14 +141,14 @@ std::set<int> visibleSlots(BlockSparseMap& map, const DepthFrame& frame, const P
 }
 
 // Slots of the blocks of which the reference updates a voxel.
-std::set<int> slotsToUpdate(BlockSparseMap& map, const View& view) {
+std::set<int> slotsToUpdate(BlockMap& map, const View& view) {
   const int m = map.parameters().block_size;
   const Pose T_D_W = view.T_W_D.inverse();
   std::set<int> slots;
-  for (const BlockSparseMap::Block& block : map.blocks()) {
+  for (const SlotTable::Block& block : map.slots().blocks()) {
     for (int i = 0; i < m * m * m; ++i) {
-      const Measurement measured =
-          measure(view, T_D_W, map.parameters(), TsdfFusionParameters(), block.index, voxelOf(block.index, i, m));
+      const Measurement measured = measure(view, T_D_W, map.parameters(), TsdfFusionParameters(), block.index,
+                                           voxelOf(block.index, i, m));
       if (measured.ambiguous || measured.kind == Measurement::kNone) continue;
       slots.insert(block.slot);
       break;
@@ -165,8 +165,7 @@ void expectCoverage(const std::set<int>& visible, const std::set<int>& needed, s
 
 TEST_P(SelectionOfBlockSize, ListsEveryBlockThatTheFrameUpdates) {
   const int blocks_per_axis = GetParam() < 16 ? 18 : 6;
-  BlockSparseMap map(compute(),
-                     mapParameters(GetParam(), blocks_per_axis, 2.4f / (blocks_per_axis * GetParam())));
+  BlockMap map(compute(), mapParameters(GetParam(), blocks_per_axis, 2.4f / (blocks_per_axis * GetParam())));
   map.allocate(windowBlocks(map));
   for (const double turn : {0.0, 1.0, 4.0, -7.0}) {
     const View view = viewOf(bumpyDepth(0.9), somePose(turn));
@@ -176,12 +175,12 @@ TEST_P(SelectionOfBlockSize, ListsEveryBlockThatTheFrameUpdates) {
 }
 
 TEST(BlockSelection, ListsNoBlockFarBesideTheCamera) {
-  BlockSparseMap map(compute(), mapParameters(8, 18, 0.016f));
+  BlockMap map(compute(), mapParameters(8, 18, 0.016f));
   map.allocate(windowBlocks(map));
   const View view = viewOf(bumpyDepth(0.9), Pose::Identity());  // in the middle of the window
   const double block_m = 8 * 0.016;
   const std::set<int> visible = visibleSlots(map, frameOf(view), view.T_W_D);
-  for (const BlockSparseMap::Block& block : map.blocks()) {
+  for (const SlotTable::Block& block : map.slots().blocks()) {
     const Eigen::Vector3d centre = block_m * (block.index.cast<double>() + Eigen::Vector3d::Constant(0.5));
     const bool beside = std::abs(centre.z()) < block_m && centre.head<2>().norm() > 4.0 * block_m;
     EXPECT_FALSE(beside && visible.count(block.slot)) << block.index.transpose();
@@ -189,7 +188,7 @@ TEST(BlockSelection, ListsNoBlockFarBesideTheCamera) {
 }
 
 TEST(BlockSelection, ListsWhatIsSeenThroughAGap) {
-  BlockSparseMap map(compute(), mapParameters(8, 18, 0.016f));
+  BlockMap map(compute(), mapParameters(8, 18, 0.016f));
   map.allocate(windowBlocks(map));
   cv::Mat depth = bumpyDepth(0.5);
   depth(cv::Rect(64, 48, DEPTH_TILE, DEPTH_TILE)).setTo(1.0);
@@ -200,7 +199,7 @@ TEST(BlockSelection, ListsWhatIsSeenThroughAGap) {
 }
 
 TEST(BlockSelection, ListsNoBlockHiddenBehindTheSurface) {
-  BlockSparseMap map(compute(), mapParameters(8, 18, 0.016f));
+  BlockMap map(compute(), mapParameters(8, 18, 0.016f));
   map.allocate(windowBlocks(map));
   const View view = viewOf(bumpyDepth(0.5), Pose::Identity());
   double farthest_m = 0.0;
@@ -209,7 +208,7 @@ TEST(BlockSelection, ListsNoBlockHiddenBehindTheSurface) {
   const double hidden_m = farthest_m + 2.0 * map.parameters().truncation_m + std::sqrt(0.75) * block_m;
   const std::set<int> visible = visibleSlots(map, frameOf(view), view.T_W_D);
   size_t hidden = 0;
-  for (const BlockSparseMap::Block& block : map.blocks()) {
+  for (const SlotTable::Block& block : map.slots().blocks()) {
     if (block_m * (block.index.z() + 0.5) < hidden_m + 1e-3) continue;
     ++hidden;
     EXPECT_EQ(visible.count(block.slot), 0u) << block.index.transpose();
@@ -218,7 +217,7 @@ TEST(BlockSelection, ListsNoBlockHiddenBehindTheSurface) {
 }
 
 TEST(BlockSelection, ListsEveryBlockThatAFilteredFrameUpdates) {
-  BlockSparseMap map(compute(), mapParameters(8, 18, 0.016f));
+  BlockMap map(compute(), mapParameters(8, 18, 0.016f));
   map.allocate(windowBlocks(map));
   cv::Mat noisy = bumpyDepth(1.0);
   cv::RNG random(2);

@@ -17,10 +17,10 @@ struct TracedVoxel {
 };
 
 // Voxels before and behind a wall at 1 m, some of each block.
-std::vector<TracedVoxel> voxelsToTrace(const BlockSparseMap& map) {
+std::vector<TracedVoxel> voxelsToTrace(const BlockMap& map) {
   const int m = map.parameters().block_size;
   std::vector<TracedVoxel> voxels;
-  for (const BlockSparseMap::Block& block : map.blocks()) {
+  for (const SlotTable::Block& block : map.slots().blocks()) {
     for (int i = 0; i < m * m * m; i += 29) {
       if (std::abs(voxelOf(block.index, i, m).z() * map.parameters().voxel_size_m - 1.0) < 0.011) {
         voxels.push_back({block.index, i, {}, {}});
@@ -68,7 +68,7 @@ Bias biasOf(const std::vector<TracedVoxel>& voxels, const MapContent& content, d
 Bias runOf(const TsdfFusionParameters& fusion_parameters) {
   MapParameters parameters = mapParameters(8, 32, 0.01f);
   parameters.truncation_m = 0.04f;
-  BlockSparseMap map(compute(), parameters);
+  BlockMap map(compute(), parameters);
   TsdfFusion fusion(compute(), map, fusion_parameters);
   cv::RNG random(4);
   integrate(fusion, wallWithNoise(1.0, 0.0, random));

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "support/expect_error.h"
 #include "support/fusion_views.h"
+#include "tsdf_fusion/filter_options.h"
 #include "tsdf_fusion/tsdf_fusion_kernels.h"
 
 namespace depth_fusion {
@@ -68,7 +71,7 @@ TsdfFusionParameters fusionBy(const std::string& rule, const std::string& distan
 }
 
 void expectTheReference(const MapParameters& map_parameters, const TsdfFusionParameters& fusion_parameters) {
-  BlockSparseMap map(compute(), map_parameters);
+  BlockMap map(compute(), map_parameters);
   TsdfFusion fusion(compute(), map, fusion_parameters);
   MapContent before;
   size_t freed = 0;
@@ -111,7 +114,7 @@ TEST_P(FusionByRule, EqualsTheReferenceFrameByFrame) {
 }
 
 TEST(TsdfFusion, RefusesWhatIsNoRule) {
-  BlockSparseMap map(compute(), mapParameters());
+  BlockMap map(compute(), mapParameters());
   expectError([&] { TsdfFusion(compute(), map, fusionBy("mean", "plane")); }, {"'rule'", "'mean'", "kalman"});
   expectError([&] { TsdfFusion(compute(), map, fusionBy("kalman", "exact")); }, {"'distance'", "refined"});
   TsdfFusionParameters parameters;
@@ -120,7 +123,7 @@ TEST(TsdfFusion, RefusesWhatIsNoRule) {
 }
 
 TEST(TsdfFusion, NumbersMayChangeAndTheRuleNot) {
-  BlockSparseMap map(compute(), mapParameters());
+  BlockMap map(compute(), mapParameters());
   TsdfFusion fusion(compute(), map, fusionBy("kalman", "plane"));
   TsdfFusionParameters parameters = fusionBy("kalman", "plane");
   parameters.process_sigma_m = 0.001f;
@@ -139,7 +142,7 @@ Deviation deviationOf(const std::vector<double>& values) {
   return {mean[0], spread[0]};
 }
 
-void expectDataInEveryBlock(BlockSparseMap& map) {
+void expectDataInEveryBlock(BlockMap& map) {
   for (const auto& [key, content] : readMap(map)) {
     const auto& distances = content.distances;
     ASSERT_TRUE(std::any_of(distances.begin(), distances.end(), [](int8_t d) { return d != TSDF_CHI; }))
@@ -152,7 +155,7 @@ class FreeSpaceByRule : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Rules, FreeSpaceByRule, testing::Values("average", "weighted", "kalman"));
 
 TEST_P(FreeSpaceByRule, ClearsWhatStoodThere) {
-  BlockSparseMap map(compute(), mapParameters());
+  BlockMap map(compute(), mapParameters());
   TsdfFusion fusion(compute(), map, fusionBy(GetParam(), "plane"));
   for (int i = 0; i < 100; ++i) integrate(fusion, viewOf(wallDepth(1.0)));
   const size_t before = map.usage().blocks;
@@ -172,7 +175,7 @@ TEST_P(FreeSpaceByRule, ClearsWhatStoodThere) {
 }
 
 TEST(TsdfFusion, CountsTheSurfaceOutsideOfTheWindow) {
-  BlockSparseMap map(compute(), mapParameters(8, 4));
+  BlockMap map(compute(), mapParameters(8, 4));
   TsdfFusion fusion(compute(), map, {});
   EXPECT_GT(integrate(fusion, viewOf(wallDepth(3.0))).points_outside, 100u);
   map.reset(Eigen::Vector3d(0.0, 0.0, 0.3));
@@ -180,7 +183,7 @@ TEST(TsdfFusion, CountsTheSurfaceOutsideOfTheWindow) {
 }
 
 TEST(TsdfFusion, BlocksWithoutDataAreReleased) {
-  BlockSparseMap map(compute(), mapParameters(4));
+  BlockMap map(compute(), mapParameters(4));
   TsdfFusion fusion(compute(), map, {});
   const FusionResult result = integrate(fusion, viewOf(bumpyDepth(1.5), somePose()));
   EXPECT_EQ(result.blocks_allocated, result.blocks_requested);
@@ -191,7 +194,7 @@ TEST(TsdfFusion, BlocksWithoutDataAreReleased) {
 }
 
 TEST(TsdfFusion, NoDepthChangesNothing) {
-  BlockSparseMap map(compute(), mapParameters());
+  BlockMap map(compute(), mapParameters());
   TsdfFusion fusion(compute(), map, {});
   integrate(fusion, viewOf(bumpyDepth(1.5)));
   const MapContent before = readMap(map);
@@ -203,7 +206,7 @@ TEST(TsdfFusion, NoDepthChangesNothing) {
 TEST(TsdfFusion, FullPoolFusesWhatFitsAndAsksAgain) {
   MapParameters parameters = mapParameters(8, 96, 0.007f);
   parameters.pool_mib = 1;
-  BlockSparseMap map(compute(), parameters);
+  BlockMap map(compute(), parameters);
   TsdfFusion fusion(compute(), map, {});
   const View view = viewOf(wallDepth(2.2));
   const FusionResult first = integrate(fusion, view);
@@ -221,7 +224,7 @@ TEST(TsdfFusion, AllocatesAllTheBlocksOfAFineMap) {
   const CameraIntrinsics camera{320, 240, 262.5, 262.5, 159.5, 119.5};
   MapParameters parameters = mapParameters(4, 220, 0.005f);
   parameters.truncation_m = 0.06f;
-  BlockSparseMap map(compute(), parameters);
+  BlockMap map(compute(), parameters);
   map.reset(Eigen::Vector3d(0.0, 0.0, 3.0));
   TsdfFusion fusion(compute(), map, {});
   const cv::Mat depth(camera.height, camera.width, CV_32FC1, cv::Scalar(3.0));
@@ -237,7 +240,7 @@ TEST(TsdfFusion, WindowMayStandAnywhere) {
   for (const Eigen::Vector3d& centre :
        {Eigen::Vector3d(0, 0, 1), {0.9, 0.5, 1.3}, {-0.7, -0.83, 0.2}, {0.33, -0.61, 1.77}}) {
     MapParameters parameters = mapParameters(8, 31);
-    BlockSparseMap map(compute(), parameters);
+    BlockMap map(compute(), parameters);
     map.reset(centre);
     TsdfFusion fusion(compute(), map, {});
     for (int i = 0; i < 3; ++i) integrate(fusion, viewOf(bumpyDepth(1.2), somePose(0.5 + 0.1 * i)));
@@ -250,7 +253,7 @@ TEST(TsdfFusion, WindowMayStandAnywhere) {
 
 TEST(TsdfFusion, ZeroCrossingIsTheSurface) {
   const MapParameters parameters = mapParameters(8, 64, 0.01f);
-  BlockSparseMap map(compute(), parameters);
+  BlockMap map(compute(), parameters);
   TsdfFusion fusion(compute(), map, {});
   for (int i = 0; i < 50; ++i) integrate(fusion, viewOf(wallDepth(1.0433)));
   std::vector<double> errors;
@@ -265,6 +268,24 @@ TEST(TsdfFusion, ZeroCrossingIsTheSurface) {
   ASSERT_GT(errors.size(), 1000u);
   EXPECT_NEAR(deviationOf(errors).mean, 0.0, 2e-5);
   EXPECT_LT(deviationOf(errors).spread, 5e-4);
+}
+
+// Every name has kernels of its own, and what has no name is not built as something else.
+TEST(TsdfFusion, RulesAndDistancesAreBuiltByTheirNames) {
+  std::set<std::string> options;
+  TsdfFusionParameters parameters;
+  for (const std::string& rule : fusionRules()) {
+    for (const std::string& distance : filterDistances().names()) {
+      parameters.rule = rule;
+      parameters.distance = distance;
+      EXPECT_TRUE(options.insert(filterOptions(parameters)).second);
+    }
+  }
+  EXPECT_EQ(options.size(), 9u);
+  parameters.rule = "kallman";
+  EXPECT_THROW(filterOptions(parameters), Error);
+  BlockMap map(compute(), mapParameters());
+  EXPECT_THROW(TsdfFusion::Kernels(compute(), map, parameters), Error);
 }
 
 }  // namespace

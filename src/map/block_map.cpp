@@ -1,0 +1,174 @@
+#include "depth_fusion/map/block_map.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "compute/opencl.h"
+#include "depth_fusion/common/error.h"
+#include "map/map_args.h"
+#include "map/map_kernels.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr size_t kTransferBlocks = 16384;  // blocks that one upload of requests names
+
+size_t cube(int n) { return static_cast<size_t>(n) * static_cast<size_t>(n) * static_cast<size_t>(n); }
+
+MapParameters checked(MapParameters parameters) {
+  validate(parameters.table());
+  const int m = parameters.block_size;
+  check((m & (m - 1)) == 0, "map/block_size is " + std::to_string(m) + "; it must be a power of two");
+  if (parameters.truncation_m == 0.0f) parameters.truncation_m = 4.0f * parameters.voxel_size_m;
+  check(parameters.truncation_m >= 2.0f * parameters.voxel_size_m,
+        "map/truncation_m must be at least two voxels, else no surface is seen between them");
+  return parameters;
+}
+
+// How many blocks the pool holds: map/pool_mib is for the first layer, the TSDF.
+size_t poolCapacity(ComputeContext& compute, const MapParameters& map) {
+  const std::vector<LayerRow> layers = layersOf(map);
+  const size_t pool_bytes = static_cast<size_t>(map.pool_mib) << 20;
+  const size_t capacity = std::min(pool_bytes / (cube(map.block_size) * layers.front().bytesPerVoxel()),
+                                   cube(map.blocks_per_axis));
+  check(capacity > 0, "map/pool_mib holds not even one block");
+  const size_t limit = compute.impl().device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  for (const LayerRow& layer : layers) {
+    check(capacity * cube(map.block_size) * layer.bytesPerVoxel() <= limit,
+          "map/pool_mib is too large: the layer " + layer.name + ", of " +
+              std::to_string(layer.bytesPerVoxel()) +
+              " bytes a voxel, is over the device's largest buffer, " + std::to_string(limit >> 20) + " MiB");
+  }
+  return capacity;
+}
+
+std::vector<BlockLayer> makeLayers(ComputeContext& compute, const std::vector<LayerRow>& rows, int block_size,
+                                   size_t capacity) {
+  std::vector<BlockLayer> layers;
+  for (const LayerRow& row : rows) layers.emplace_back(compute, row, block_size, capacity);
+  return layers;
+}
+
+std::vector<BlockRequest> requestsOf(const BlockIndex* begin, const BlockIndex* end) {
+  std::vector<BlockRequest> requests;
+  for (const BlockIndex* block = begin; block != end; ++block)
+    requests.push_back({block->x(), block->y(), block->z(), 0});
+  return requests;
+}
+
+}  // namespace
+
+size_t mapBytes(const MapParameters& map, size_t blocks) {
+  size_t bytes = 4 * cube(map.blocks_per_axis);
+  for (const LayerRow& layer : layersOf(map)) bytes += blocks * cube(map.block_size) * layer.bytesPerVoxel();
+  return bytes;
+}
+
+BlockMap::BlockMap(ComputeContext& compute, const MapParameters& parameters)
+    : BlockMap(compute, checked(parameters), SlotTable(poolCapacity(compute, checked(parameters))),
+               layersOf(parameters)) {
+  placeWindow(Eigen::Vector3d::Zero());
+}
+
+BlockMap::BlockMap(ComputeContext& compute, const MapParameters& checked, SlotTable slots,
+                   const std::vector<LayerRow>& layers)
+    : compute_(compute),
+      parameters_(checked),
+      slots_(std::move(slots)),
+      changes_(slots_),
+      layers_(makeLayers(compute, layers, checked.block_size, slots_.capacity())),
+      offsets_(compute, 4 * cube(checked.blocks_per_axis), "the offsets of map/blocks_per_axis"),
+      block_indices_(compute, slots_.capacity() * sizeof(BlockRequest), "the block indices of the map"),
+      block_states_(compute, slots_.capacity() * sizeof(int), "the block states of the map"),
+      request_transfer_(compute, kTransferBlocks * sizeof(BlockRequest), "block requests"),
+      slot_transfer_(compute, kTransferBlocks * sizeof(int), "block slots"),
+      kernels_(std::make_unique<MapKernels>(compute, checked)) {}
+
+BlockMap::~BlockMap() = default;
+
+void BlockMap::reset(const Eigen::Vector3d& centre_W) {
+  slots_.clear();
+  changes_.noteReset();
+  placeWindow(centre_W);
+}
+
+void BlockMap::placeWindow(const Eigen::Vector3d& centre_W) {
+  check(slots_.used() == 0, "the window of a map with blocks cannot be placed anew");
+  const double block_m = static_cast<double>(parameters_.voxel_size_m) * parameters_.block_size;
+  window_ = Window::centredOn(centre_W, block_m, parameters_.blocks_per_axis);
+  slots_.clear();
+  offsets_.fill(BLOCK_EMPTY, offsets_.bytes());
+}
+
+size_t BlockMap::allocate(const std::vector<BlockIndex>& blocks) {
+  const std::vector<int> slots = slots_.take(blocks);
+  const size_t met = slots.size();
+  for (size_t begin = 0; begin < blocks.size();) {
+    // A batch lies wholly on one side of `met`, so that it is either entered or withdrawn.
+    const size_t end = std::min(begin + kTransferBlocks, begin < met ? met : blocks.size());
+    const int count = static_cast<int>(end - begin);
+    request_transfer_.write(requestsOf(blocks.data() + begin, blocks.data() + end));
+    if (begin < met) {
+      slot_transfer_.write(slots.data() + begin, (end - begin) * sizeof(int));
+      kernels_->assignBlocks(*this, request_transfer_, slot_transfer_, count);
+      for (BlockLayer& layer : layers_) kernels_->clearBlocks(layer, slot_transfer_, count);
+    } else {
+      kernels_->withdrawRequests(*this, request_transfer_, count);
+    }
+    begin = end;
+  }
+  changes_.noteUpdated(slots);
+  return met;
+}
+
+void BlockMap::release(const std::vector<int>& slots) {
+  slots_.release(slots);
+  changes_.noteReleased(slots);
+}
+
+std::unique_ptr<BlockMap> BlockMap::snapshot(const std::vector<std::string>& names) const {
+  std::vector<LayerRow> rows;
+  for (const BlockLayer& layer : layers_) {
+    if (std::count(names.begin(), names.end(), layer.name()) > 0) rows.push_back(layer.row());
+  }
+  std::unique_ptr<BlockMap> copy(new BlockMap(compute_, parameters_, slots_.trimmed(), rows));
+  const auto slots = static_cast<size_t>(slots_.bound());
+  copy->window_ = window_;
+  copy->offsets_.copyFrom(offsets_, offsets_.bytes());
+  copy->block_indices_.copyFrom(block_indices_, slots * sizeof(BlockRequest));
+  copy->block_states_.copyFrom(block_states_, slots * sizeof(int));
+  for (const BlockLayer& layer : layers_) {
+    if (!copy->hasLayer(layer.name())) continue;
+    copy->layer(layer.name())
+        .copyFrom(layer.buffer(), slots * cube(parameters_.block_size) * layer.bytesPerVoxel());
+  }
+  return copy;
+}
+
+bool BlockMap::hasLayer(const std::string& name) const {
+  return std::any_of(layers_.begin(), layers_.end(), [&](const auto& layer) { return layer.name() == name; });
+}
+
+DeviceBuffer& BlockMap::layer(const std::string& name) {
+  const auto found = std::find_if(layers_.begin(), layers_.end(),
+                                  [&](const BlockLayer& layer) { return layer.name() == name; });
+  check(found != layers_.end(), "the map has no layer " + name);
+  return found->buffer();
+}
+
+BlockMap::Usage BlockMap::usage() const {
+  Usage usage;
+  usage.blocks = slots_.used();
+  usage.capacity = slots_.capacity();
+  usage.bytes = offsets_.bytes();
+  usage.pool_bytes = offsets_.bytes() + block_indices_.bytes() + block_states_.bytes();
+  for (const BlockLayer& layer : layers_) {
+    const size_t bytes = usage.blocks * cube(parameters_.block_size) * layer.bytesPerVoxel();
+    usage.layer_bytes[layer.name()] = bytes;
+    usage.bytes += bytes;
+    usage.pool_bytes += layer.buffer().bytes();
+  }
+  return usage;
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,58 @@
+#include "ros/in_process/frame_mapper.h"
+
+namespace depth_fusion {
+
+void FrameMapper::setParameters(const PipelineParameters& parameters) {
+  parameters_ = parameters;
+  if (preprocessor_ != nullptr)
+    preprocessor_->setParameters(parameters.preprocessing, parameters.depth_sensor);
+}
+
+MappingOutcome FrameMapper::map(const TrackedFrame& frame, FusedMap& map, bool resets_on_jump,
+                                StageTimers& timers) {
+  prepare(frame.sensor->rgbd.intrinsics);
+  const MapState state{map.map().generation(), map.map().slots().used() == 0};
+  const Admission admission = admission_.admit(frame, state, resets_on_jump);
+  if (!admission.fuse) return {admission.may_predict_from, false, admission.reason};
+  if (admission.begins_map) empty(map);
+  return fuse(frame, map, timers);
+}
+
+void FrameMapper::prepare(const CameraIntrinsics& camera) {
+  if (sameCamera(camera, camera_)) return;
+  camera_ = camera;
+  view_.reset();
+  motion_ = MotionModel();
+  preprocessor_.reset();
+}
+
+MappingOutcome FrameMapper::fuse(const TrackedFrame& frame, FusedMap& map, StageTimers& timers) {
+  const RgbdFrame& rgbd = frame.sensor->rgbd;
+  const Pose& T_W_D = frame.tracking.T_W_D;
+  if (frame.depth == nullptr && preprocessor_ == nullptr)
+    preprocessor_ = std::make_unique<DepthPreprocessor>(*compute_, parameters_.preprocessing, camera_,
+                                                        parameters_.depth_sensor);
+  const DepthFrame& depth =
+      frame.depth ? *frame.depth : preprocessor_->process(rgbd, motion_.moveTo(rgbd.stamp_s, T_W_D), timers);
+  const MappingResult result = map.mapper(camera_).fuse(rgbd, depth, T_W_D, timers);
+  if (!result.fusion.fused()) return {false, false, notFusedReason()};
+  return {true, true, leftOutReason(result), result.fusion.blocks_requested - result.fusion.blocks_allocated};
+}
+
+void FrameMapper::render(const TrackedFrame& frame, FusedMap& map, StageTimers& timers) {
+  Mapper& mapper = map.mapper(camera_);
+  mapper.render(frame.tracking.T_W_D, timers);
+  view_ = mapper.renderer().view();
+}
+
+void FrameMapper::reset(FusedMap& map, const MapReset& reset) {
+  empty(map);
+  admission_.noteReset(reset);
+}
+
+void FrameMapper::empty(FusedMap& map) {
+  map.reset();
+  view_.reset();
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,31 @@
+#include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
+
+namespace depth_fusion {
+
+ParameterTable TsdfFusionNodeletParameters::table(const Parameter& device_row,
+                                                  const Parameter& queue_size_row) {
+  const ParameterTable own = {
+      device_row,
+      atStartOnly(text("map_frame", &map_frame, "frame of the map")),
+      atStartOnly(
+          choice("tracking", &tracking, {"internal", "external"},
+                 "internal: frames with poses from icp_tracking; external: frames from the topics, poses "
+                 "from tf at their stamps")),
+      queue_size_row,
+      atStartOnly(number("tf_queue_size", &tf_queue_size, 1, 10000,
+                         "external: frames that wait for their pose at most")),
+      choice("on_clock_jump", &on_clock_jump, {"reset", "keep"},
+             "external: what a clock that goes back does to the map")};
+  return joined({pipeline.tsdf_fusion.table(), rgbd.table(), own, picture.table()});
+}
+
+std::vector<std::pair<std::string, ParameterTable>> TsdfFusionNodeletParameters::stages() {
+  return {{"map", pipeline.map.table()},
+          {"registration", rgbd.registration.table()},
+          {"depth_sensor", pipeline.depth_sensor.table()},
+          {"preprocessing", pipeline.preprocessing.table()},
+          {"model_view", pipeline.model_view.table()},
+          {"color_fusion", pipeline.color_fusion.table()}};
+}
+
+}  // namespace depth_fusion

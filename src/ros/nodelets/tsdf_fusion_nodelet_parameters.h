@@ -1,0 +1,35 @@
+// What the nodelet tsdf_fusion is told.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "depth_fusion/pipeline/pipeline_parameters.h"
+#include "ros/input/rgbd_subscriber.h"
+#include "ros/output/model_picture.h"
+
+namespace depth_fusion {
+
+struct TsdfFusionNodeletParameters {
+  PipelineParameters pipeline;
+  RgbdParameters rgbd;
+  std::string device;
+  std::string map_frame = "map";
+  std::string tracking = "internal";
+  int queue_size = 2;
+  int tf_queue_size = 30;
+  std::string on_clock_jump = "reset";
+  ModelPictureParameters picture;
+
+  // The nodelet's own rows, with those of `device` and `queue_size`, which are made where all nodelets have
+  // them.
+  ParameterTable table(const Parameter& device_row, const Parameter& queue_size_row);
+  // The rows of the stages that the nodelet runs beside its own.
+  std::vector<std::pair<std::string, ParameterTable>> stages();
+
+  bool isExternal() const { return tracking == "external"; }
+  bool resetsOnClockJump() const { return on_clock_jump == "reset"; }
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,53 @@
+#include "ros/output/map_reporter.h"
+
+#include <sensor_msgs/Image.h>
+
+#include <boost/make_shared.hpp>
+
+#include "ros/conversions/status_messages.h"
+
+namespace depth_fusion {
+
+MapReporter::MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle& handle, uint32_t view_queue)
+    : map_(map),
+      view_publisher_(handle.advertise<MapViewMessage>("model_view", view_queue)),
+      status_publisher_(handle.advertise<MapStatus>("status", 100, true)),
+      picture_(handle.advertise<sensor_msgs::Image>("model_view/image", 1)) {}
+
+void MapReporter::answer(const std_msgs::Header& header, const MappingOutcome& outcome,
+                         const FrameMapper& mapper, FusedMap& map) {
+  const FrameAdmission& admission = mapper.admission();
+  view_publisher_.publish(makeMessage<MapView>(
+      header, std::make_shared<MapView>(MapView{mapper.view(), outcome.accepted, outcome.reason,
+                                                map.map().generation(), admission.mode(),
+                                                admission.lastReset(), map_})));
+}
+
+void MapReporter::publishStatus(const std_msgs::Header& header, const MappingOutcome& outcome,
+                                const FrameMapper& mapper, FusedMap& map, const FrameAccount& frames) {
+  auto status = boost::make_shared<MapStatus>();
+  status->header = header;
+  status->fused = outcome.fused;
+  status->reason = outcome.reason;
+  status->mode = static_cast<uint8_t>(mapper.admission().mode());
+  status->generation = map.map().generation();
+  setUsage(*status, map.map().usage());
+  status->blocks_left_out = outcome.blocks_left_out;
+  status->frames = frames;
+  status_publisher_.publish(status);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_ = *status;
+}
+
+void MapReporter::announce(const std::string& news, const FrameMapper& mapper, FusedMap& map,
+                           const FrameAccount& frames) {
+  answer(std_msgs::Header(), {false, false, news}, mapper, map);
+  publishStatus(std_msgs::Header(), {}, mapper, map, frames);
+}
+
+void MapReporter::diagnose(const std::string& problem, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  depth_fusion::diagnose(status_, problem, status);
+}
+
+}  // namespace depth_fusion

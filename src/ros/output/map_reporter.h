@@ -1,0 +1,45 @@
+// What tsdf_fusion says of its map: answers to the tracker, the map's status, and pictures of it.
+#pragma once
+
+#include <depth_fusion/MapStatus.h>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "ros/in_process/frame_mapper.h"
+#include "ros/output/model_picture.h"
+
+namespace depth_fusion {
+
+// Reports are made in SharedMap::locked; diagnose() may be called at any time.
+class MapReporter {
+ public:
+  // Publishes in the nodelet's namespace; answers that wait to be taken are view_queue at most.
+  MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle& handle, uint32_t view_queue);
+
+  bool hasViewers() const { return view_publisher_.getNumSubscribers() > 0 || picture_.hasViewers(); }
+  // The answer to the tracker for the frame of that header.
+  void answer(const std_msgs::Header& header, const MappingOutcome& outcome, const FrameMapper& mapper,
+              FusedMap& map);
+  void publishStatus(const std_msgs::Header& header, const MappingOutcome& outcome, const FrameMapper& mapper,
+                     FusedMap& map, const FrameAccount& frames);
+  // Tells tracker and users of what no frame brought about: without a stamp.
+  void announce(const std::string& news, const FrameMapper& mapper, FusedMap& map,
+                const FrameAccount& frames);
+  ModelPicture& picture() { return picture_; }
+  // The level and summary of the last status; `problem` is of what the frames come from.
+  void diagnose(const std::string& problem, diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  std::weak_ptr<SharedMap> map_;
+  ros::Publisher view_publisher_, status_publisher_;
+  ModelPicture picture_;
+
+  std::mutex mutex_;
+  MapStatus status_;  // the last one
+};
+
+}  // namespace depth_fusion

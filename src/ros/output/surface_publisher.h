@@ -1,0 +1,40 @@
+// The surface and the blocks of a map on topics, as long as somebody looks.
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <atomic>
+#include <memory>
+
+#include "ros/output/live_surface.h"
+
+namespace depth_fusion {
+
+class SurfacePublisher {
+ public:
+  // Advertises markers, points and blocks.
+  explicit SurfacePublisher(ros::NodeHandle& handle);
+
+  // Publishes what changed of the map, and now and then points and boxes, points_rate_hz at most. Null: there
+  // is no map.
+  void update(const std::shared_ptr<SharedMap>& map, const LiveSurfaceParameters& live,
+              const SurfaceMeshParameters& mesh, double points_rate_hz, StageTimers& timers);
+  // The next update shows all of the surface anew.
+  void beginAnew() { surface_.reset(); }
+
+  uint32_t markerViewers() const { return marker_publisher_.getNumSubscribers(); }
+  uint32_t pointViewers() const { return point_publisher_.getNumSubscribers(); }
+
+ private:
+  void updateSurface(const std::shared_ptr<SharedMap>& map, const LiveSurfaceParameters& live,
+                     const SurfaceMeshParameters& mesh);
+  void publishPoints(const std::string& frame_id);
+  void publishBlocks(SharedMap& map);
+
+  ros::Publisher marker_publisher_, point_publisher_, block_publisher_;
+  std::unique_ptr<LiveSurface> surface_;  // while somebody looks
+  ros::WallTime last_points_, last_blocks_;
+  std::atomic<bool> has_late_viewer_{false};
+};
+
+}  // namespace depth_fusion
