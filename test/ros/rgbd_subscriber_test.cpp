@@ -76,14 +76,17 @@ TEST_F(RgbdSubscriberTest, NobodyWaitsForAFrameAtWork) {
     begun.set_value();
     finish.get_future().wait();
   });
-  camera_.publish(frames_[0]);
+  camera_.publishDepth(frames_[0]);
+  camera_.publishColor(frames_[1]);  // whose thread delivers the first frame, and the depth's is free
   begun.get_future().wait();
-  camera_.publish(frames_[1]);
+  camera_.publishDepth(frames_[1]);
   const auto asked = std::async(std::launch::async, [&] {
     subscriber_->setParameters(RgbdParameters());
     return subscriber_->problem();
   });
   EXPECT_EQ(asked.wait_for(kLong), std::future_status::ready);
+  EXPECT_TRUE(eventually([&] { return counter_.account().received == 2; }));
+  ros::WallDuration(0.2).sleep();
   EXPECT_EQ(frames, 1) << "frames come one at a time";
   finish.set_value();
   EXPECT_TRUE(eventually([&] { return frames == 2; }));
