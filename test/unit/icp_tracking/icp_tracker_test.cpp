@@ -180,7 +180,7 @@ TEST(IcpTracker, AMeasuredPriorFillsWhatAPlaneLeavesFree) {
   const ModelView view = Sight(camera, frameOfScene(wall, camera, Pose::Identity())).asView(Pose::Identity());
   Pose truth = Pose::Identity();
   truth.translation() << 0.02, -0.01, 0.01;
-  MotionPrior prior{truth, Matrix6d(1e-6 * Matrix6d::Identity())};
+  MotionPrior prior{truth, Matrix6d(1e-6 * Matrix6d::Identity()), {}};
   prior.T_W_D.translation().z() = 0.0;
   IcpTracker tracker(compute(), {}, camera);
   StageTimers timers;
