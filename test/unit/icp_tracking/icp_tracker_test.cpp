@@ -4,13 +4,13 @@
 
 #include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
-#include "tools/simulation/simulated_recording.h"
 #include "icp_tracking/degeneracy.h"
 #include "icp_tracking/icp_tracking_kernels.h"
 #include "reference/icp_system.h"
 #include "shared/types.h"
 #include "support/normal_images.h"
 #include "support/test_compute.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {
