@@ -3,11 +3,11 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
-#include "tools/evaluation/mesh_error.h"
 #include "ros/in_process/frames.h"
 #include "ros/in_process/shared_map.h"
 #include "support/diagnostics.h"
 #include "support/distorted_view.h"
+#include "tools/evaluation/mesh_error.h"
 
 namespace depth_fusion {
 namespace {

@@ -17,7 +17,7 @@ struct RgbdFrame {
   double depth_unit_m = 1.0;  // metres a unit of `depth` (0.001 for millimetres)
   cv::Mat weights;  // CV_32FC1 of the depth's size, or empty: how much fusion trusts each pixel, in (0, 1]; a
                     // pixel with any other weight, NaN among them, is not fused
-  cv::Mat color;                        // CV_8UC3 BGR or CV_8UC1, or empty; nearest in time to `depth`
+  cv::Mat color;    // CV_8UC3 BGR or CV_8UC1, or empty; nearest in time to `depth`
   std::optional<double> color_stamp_s;  // unset: that of the depth
   std::string color_problem;            // why `color` is empty though the recording has an image
   CameraIntrinsics intrinsics;          // of the depth camera; width and height equal those of `depth`

@@ -135,8 +135,8 @@ void StageFixture::preprocess() { preprocessor_.process(frame_, handVelocity());
 void StageFixture::matchTexture() { odometry_.process(matched_count_++ % 2 == 0 ? frame_ : next_frame_); }
 
 void StageFixture::track() {
-  tracker_.track(*next_preprocessor_.result(), *tracked_renderer_.view(), MotionPrior{T_W_D_, std::nullopt},
-                 timers_);
+  tracker_.track(*next_preprocessor_.result(), *tracked_renderer_.view(),
+                 MotionPrior{T_W_D_, std::nullopt, {}}, timers_);
 }
 
 // One iteration's sums.

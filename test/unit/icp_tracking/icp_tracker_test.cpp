@@ -4,13 +4,13 @@
 
 #include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
-#include "tools/simulation/simulated_recording.h"
 #include "icp_tracking/degeneracy.h"
 #include "icp_tracking/icp_tracking_kernels.h"
 #include "reference/icp_system.h"
 #include "shared/types.h"
 #include "support/normal_images.h"
 #include "support/test_compute.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {
@@ -180,7 +180,7 @@ TEST(IcpTracker, AMeasuredPriorFillsWhatAPlaneLeavesFree) {
   const ModelView view = Sight(camera, frameOfScene(wall, camera, Pose::Identity())).asView(Pose::Identity());
   Pose truth = Pose::Identity();
   truth.translation() << 0.02, -0.01, 0.01;
-  MotionPrior prior{truth, Matrix6d(1e-6 * Matrix6d::Identity())};
+  MotionPrior prior{truth, Matrix6d(1e-6 * Matrix6d::Identity()), {}};
   prior.T_W_D.translation().z() = 0.0;
   IcpTracker tracker(compute(), {}, camera);
   StageTimers timers;
