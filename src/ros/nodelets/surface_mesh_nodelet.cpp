@@ -64,7 +64,7 @@ void SurfaceMeshNodelet::start() {
 
 void SurfaceMeshNodelet::applyParameters() {
   parameters_.checkTogether();
-  surface_->beginAnew();
+  if (surface_ != nullptr) surface_->beginAnew();
   update_timer_.setPeriod(ros::WallDuration(1.0 / parameters_.publish_rate_hz));
 }
 

@@ -7,6 +7,7 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/surface_mesh/mesh_file.h"
 #include "depth_fusion/surface_mesh/simplification.h"
+#include "depth_fusion/surface_mesh/surface_mesh.h"
 
 namespace depth_fusion {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
+#include <memory>
 #include <random>
 #include <set>
 
@@ -165,7 +165,8 @@ TEST(MapChanges, BeginAnewAfterAReset) {
 TEST(MapChanges, NobodyIsFollowedByWhoWentAway) {
   MapOfBlocks map;
   EXPECT_FALSE(map.log.isFollowed());
-  std::optional<MapSubscription> follower = map.log.subscribe(), other = map.log.subscribe();
+  auto follower = std::make_unique<MapSubscription>(map.log.subscribe());
+  auto other = std::make_unique<MapSubscription>(map.log.subscribe());
   follower.reset();
   EXPECT_TRUE(map.log.isFollowed());
   other.reset();

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "depth_fusion/pipeline/mapper.h"
 #include "support/changing_map.h"
 #include "support/expect_error.h"
 #include "support/fusion_views.h"
@@ -287,18 +288,21 @@ TEST_F(MeshChunksTest, parametersOutOfRangeAreErrors) {
 }
 
 // Fusion of a bumpy wall from several places, which is then taken away: free space is carved, and blocks are
-// released.
+// released. The map is told of it by the mapper, as long as somebody follows.
 TEST(MeshChunksOfFusion, followEveryFrame) {
   BlockMap map(compute(), mapParameters());
-  TsdfFusion fusion(compute(), map, {});
+  Mapper mapper(compute(), map, {}, kCamera);
   MeshChunks chunks(compute(), map, {}, 4);
   Viewer viewer;
   size_t released = 0;
   for (int frame = 0; frame < 14; ++frame) {
-    const cv::Mat depth = frame < 5 ? bumpyDepth(1.2) : wallDepth(1.9);
-    const FusionResult result = integrate(fusion, viewOf(depth, somePose(0.1 * (frame % 3))));
-    released += result.blocks_released;
-    map.noteUpdated(fusion.visibleBlocks().read<int>(result.blocks_updated));
+    RgbdFrame rgbd;
+    rgbd.intrinsics = kCamera;
+    rgbd.depth_unit_m = 1.0;
+    rgbd.depth = frame < 5 ? bumpyDepth(1.2) : wallDepth(1.9);
+    const View view = viewOf(rgbd.depth, somePose(0.1 * (frame % 3)));
+    StageTimers timers;
+    released += mapper.fuse(rgbd, frameOf(view), view.T_W_D, timers).fusion.blocks_released;
     viewer.follow(chunks);
     viewer.expectTheWholeSurface(map);
   }
