@@ -11,7 +11,7 @@
 namespace depth_fusion {
 namespace {
 
-// Tiles along an axis.
+// Returns the number of tiles along an axis.
 size_t tiles(int pixels) { return (pixels + DEPTH_TILE - 1) / DEPTH_TILE; }
 
 SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParameters& parameters) {
@@ -23,7 +23,7 @@ SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParam
   return motion;
 }
 
-// With the range that the sensor's noise allows.
+// Limits the range to what the sensor's noise allows.
 PreprocessingParameters limited(PreprocessingParameters parameters, const DepthSensorParameters& sensor) {
   validateRange(parameters, sensor);
   parameters.max_range_m = std::min(parameters.max_range_m, sensor.maxRange_m());

@@ -18,7 +18,7 @@ Eigen::Matrix3d turnedAbout(const Eigen::Vector3d& axis, double degrees) {
   return Eigen::AngleAxisd(degrees * kPi / 180.0, axis).toRotationMatrix();
 }
 
-// Orientation of the camera in the frame of the mesh.
+// Returns the camera's orientation in the frame of the mesh.
 const std::map<std::string, Eigen::Matrix3d>& orientations() {
   static const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   static const Eigen::Vector3d y = Eigen::Vector3d::UnitY();

@@ -44,7 +44,7 @@ class PlyFile {
     require(static_cast<bool>(stream_), "ends before its last vertex or face");
   }
 
-  // So that a wrong count in the header asks for no memory that the file cannot fill.
+  // A wrong count in the header must not ask for memory that the file cannot fill.
   void requireBytesLeft(uint64_t bytes) {
     const auto here = stream_.tellg();
     stream_.seekg(0, std::ios::end);

@@ -20,19 +20,19 @@ class SurfaceMeshKernels {
   const BatchLimits& limits() const { return limits_; }
   size_t deviceBytes() const;
 
-  // Gathers and classifies the blocks of a batch; of a count: those that stand in blockArgs().
+  // Gathers and classifies the blocks of a batch; given a count, the first blocks of blockArgs().
   void classify(const std::vector<MeshBlockArgs>& blocks);
   void classify(size_t count);
   DeviceBuffer& blockArgs() { return block_args_; }
-  // Of the blocks classified last.
+  // Returns the counts of the blocks that were classified last.
   std::vector<Totals> totals(size_t count) const;
-  // Of the batch classified last; the vectors keep their memory from batch to batch.
+  // Emits the batch that was classified last; the vectors keep their memory from batch to batch.
   void emitVertices(const MeshBatch& batch, std::vector<MeshVertex>& vertices);
-  // Of the vertices emitted last; the map must have colour.
+  // Colours the vertices that were emitted last; the map must have colour.
   void colorVertices(const MeshBatch& batch, std::vector<MeshColor>& colors);
   void emitTriangles(const MeshBatch& batch, std::vector<MeshTriangle>& triangles);
 
-  // The same on the device alone, of the first `count` blocks: six floats a vertex, three vertices a
+  // Emits the first `count` blocks and leaves the result on the device: six floats a vertex, three vertices a
   // triangle.
   const DeviceBuffer& emitVertices(size_t count, uint32_t first_vertex);
   const DeviceBuffer& emitTriangles(size_t count);

@@ -5,7 +5,7 @@
 
 namespace depth_fusion {
 
-// Of an image CV_8UC3 (BGR) or CV_8UC1; the features' surfaces are left out.
+// Finds the features of an image CV_8UC3 (BGR) or CV_8UC1, without their surfaces.
 void detectFeatures(const cv::Mat& color, const TextureOdometryParameters& parameters, FrameFeatures& result);
 
 }  // namespace depth_fusion

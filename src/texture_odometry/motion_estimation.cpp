@@ -39,7 +39,7 @@ std::vector<size_t> drawSample(std::mt19937& random, size_t count) {
   return sample;
 }
 
-// From the points alone where all have depth twice; a start for what the pixels refine.
+// Finds the motion from the points alone where all have depth in both frames; the pixels refine it.
 Pose alignPoints(const std::vector<Correspondence>& correspondences, const std::vector<size_t>& sample) {
   Eigen::Matrix3d reference, current;
   for (size_t i = 0; i < kSampleSize; ++i) {
@@ -51,7 +51,7 @@ Pose alignPoints(const std::vector<Correspondence>& correspondences, const std::
   return Pose(Eigen::umeyama(current, reference, false));
 }
 
-// How many samples it takes to have one without outliers.
+// Returns how many samples it takes to have one without outliers.
 int neededIterations(size_t inliers, size_t count) {
   const double good = std::pow(static_cast<double>(inliers) / static_cast<double>(count), kSampleSize);
   if (good >= 1.0) return 1;
@@ -64,8 +64,8 @@ double medianOf(std::vector<double>& values) {
   return *middle;
 }
 
-// Robust standard deviations of the inliers' residuals: the squared norm of two normal values has the
-// median 1.386.
+// Estimates the standard deviations of the inliers' residuals robustly: the squared norm of two normal values
+// has the median 1.386.
 NoiseScale noiseOf(const MotionModel& model, const std::vector<size_t>& inliers,
                    const Pose& T_reference_current) {
   std::vector<double> pixels, depth;

@@ -21,13 +21,13 @@ class DepthPreprocessor {
                     const CameraIntrinsics& camera, const DepthSensorParameters& sensor = {});
   ~DepthPreprocessor();
 
-  // For the frames to come. Throws as validateRange does, and changes nothing then.
+  // Sets the parameters for the frames to come. Throws as validateRange does, and then changes nothing.
   void setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
-  // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s); with it the depth
+  // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s). With it the depth
   // becomes that of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid
-  // until the next call. Throws Error if the type or size of depth or weights is not the expected.
+  // until the next call. Throws Error if depth or weights have another type or size than expected.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity = Vector6d::Zero());
-  // The last result, valid and unchanged for as long as it is held.
+  // Returns the last result, which stays valid and unchanged for as long as it is held.
   std::shared_ptr<const DepthFrame> result() const { return results_.current(); }
 
  private:
