@@ -4,18 +4,18 @@
 #include "shared/block_map.h"
 #include "shared/image.h"
 
-// Sides of the block's middle that the octants lie on.
+// Each octant lies on these sides of the block's middle.
 #define SIDE_X ((float8)(-1, 1, -1, 1, -1, 1, -1, 1))
 #define SIDE_Y ((float8)(-1, -1, 1, 1, -1, -1, 1, 1))
 #define SIDE_Z ((float8)(-1, -1, -1, -1, 1, 1, 1, 1))
 
-// What an octant covers: metres, and pixels along one axis of the image.
+// Holds what octants cover, in metres or in pixels along one axis of the image.
 typedef struct {
   float8 lowest, highest;
 } Extents;
 
-// Of boxes along the axes of frame D. One that reaches behind the camera covers what its part ahead of it
-// covers.
+// Returns the pixels that boxes along the axes of frame D cover. A box that reaches behind the camera covers
+// what its part ahead of the camera covers.
 inline Extents pixel_extents(float8 centre, float reach, const Extents depth, float focal_length,
                              float image_centre) {
   const float8 near = focal_length / max(depth.lowest, (float8)(1e-3f)), far = focal_length / depth.highest;

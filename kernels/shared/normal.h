@@ -2,7 +2,7 @@
 #include "shared/simd.h"
 #include "shared/types.h"
 
-// Of the vectors' directions.
+// Packs the vectors' directions.
 inline vuint pack_normals(vfloat x, vfloat y, vfloat z) {
   const vfloat steps = NORMAL_STEPS / max(sqrt(x * x + y * y + z * z) - z, (vfloat)(1e-20f));
   const vuint u = AS_VUINT(TO_VINT(clamp(x * steps + (NORMAL_ZERO + 0.5f), 1.0f, NORMAL_MAX)));
