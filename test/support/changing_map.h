@@ -26,7 +26,7 @@ class ChangingMap {
         first_(Eigen::Vector3i::Constant(-24 / map.parameters().block_size)),
         count_(48 / map.parameters().block_size) {}
 
-  // Tells of the blocks that this releases, changes or creates, and of no others.
+  // Names the blocks that this call releases, changes or creates, and no others.
   void show(const SignedDistance& distance, const NoteUpdated& note) {
     const MapContent before = readMap(map_);
     note(release([&](const BlockSparseMap::BlockIndex& block) { return isEmpty(distance, block); }));

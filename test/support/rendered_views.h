@@ -51,7 +51,7 @@ inline void setBlockStates(BlockSparseMap& map) {
   map.blockStates().write(states);
 }
 
-// A map with the surface in the whole window, centred on the point.
+// Makes a map with the surface in the whole window, centred on the point.
 inline std::unique_ptr<BlockSparseMap> makeMap(const MapParameters& parameters,
                                                const SignedDistance& distance,
                                                const Eigen::Vector3d& centre_W = Eigen::Vector3d::Zero()) {
@@ -94,7 +94,8 @@ constexpr double kRadius_m = 0.25;
 
 inline double sphereDistance(const Eigen::Vector3d& p) { return (p - kCentre).norm() - kRadius_m; }
 
-// Errors of a rendered sphere where it is seen at an angle that is not flat, and hits where there is none.
+// Holds the errors of a rendered sphere where it is seen at an angle that is not flat, and the hits where
+// there is no sphere.
 struct ViewErrors {
   size_t hits = 0, missing = 0, false_hits = 0;
   double mean_vox = 0.0, largest_vox = 0.0, largest_angle_rad = 0.0;
@@ -127,7 +128,7 @@ inline ViewErrors compareWithSphere(const Images& view, const Pose& T_W_D, doubl
   return errors;
 }
 
-// render: from a map, a pose and the largest range to Images.
+// `render` makes Images from a map, a pose and the largest range.
 template <class Render>
 void expectNothingOutOfRange(const Render& render) {
   const auto map = makeMap(mapParameters(8), sphereDistance);

@@ -15,7 +15,7 @@ constexpr double kRoomPitch_m = 7.0;  // a room's diagonal is 6; nearer ones com
 constexpr size_t kYoungFrames = 500;
 constexpr double kTarget = 1.1;  // a frame at the end over one after so many
 
-// mislead.
+// Returns the parameters of a walk through a window of the given edge.
 PipelineParameters walkParameters(double voxel_mm, double window_m) {
   PipelineParameters parameters;
   MapParameters& map = parameters.map;
@@ -25,8 +25,8 @@ PipelineParameters walkParameters(double voxel_mm, double window_m) {
   return parameters;
 }
 
-// Rooms of a grid, the first one's among them: 3 x 3 x 2, so that the window, which begins before the first
-// camera, holds them all.
+// Returns the places of the rooms, the first one's among them: a grid of 3 x 3 x 2, so that the window, which
+// begins before the first camera, holds them all.
 std::vector<Eigen::Vector3d> rooms() {
   std::vector<Eigen::Vector3d> corners;
   for (const int z : {0, 1}) {
@@ -54,7 +54,7 @@ GrowthSample sampleOf(GrowthWalk& walk, const CameraIntrinsics& camera, double v
   return sample;
 }
 
-// Forth through new surface, and back, timed, through what is mapped.
+// Goes forth through new surface, and back, timed, through what is mapped.
 GrowthSample visit(GrowthWalk& walk, const Eigen::Vector3d& room_W, const CameraIntrinsics& camera,
                    double voxel_mm) {
   walk.enter(room_W);
@@ -69,7 +69,7 @@ GrowthSample visit(GrowthWalk& walk, const Eigen::Vector3d& room_W, const Camera
   return sample;
 }
 
-// Where the first room has just been mapped (again).
+// Maps the first room (again) and stays there.
 void enterAndMap(GrowthWalk& walk) {
   walk.enter(rooms().front());
   walk.lookForth();
@@ -87,7 +87,8 @@ void printRatios(const StageTimers& young, const StageTimers& grown) {
   std::printf("  target %.1f %s\n", kTarget, ratio <= kTarget ? "met" : "MISSED");
 }
 
-// The grown walk back in its first room, and a new one that knows nothing else, in turn on the same views.
+// Times, in turn on the same views, the grown walk back in its first room and a new one that knows nothing
+// else.
 void compareInTurn(ComputeContext& compute, const PipelineParameters& parameters, GrowthWalk& grown,
                    const std::vector<RgbdFrame>& views) {
   GrowthWalk young(compute, parameters, views);

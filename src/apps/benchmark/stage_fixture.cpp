@@ -18,7 +18,7 @@ PipelineParameters fixtureParameters(const TrackingInput& input) {
   return withinSensorRange(parameters);
 }
 
-// As of cfg/cameras/tum_freiburg1.yaml.
+// Takes the lens of cfg/cameras/tum_freiburg1.yaml.
 RgbdFrame throughLenses(RgbdFrame frame) {
   frame.distortion = frame.color_distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
   return frame;
@@ -131,7 +131,7 @@ void StageFixture::moveDepth() { depth_to_color_.process(beside_frame_); }
 
 void StageFixture::preprocess() { preprocessor_.process(frame_, handVelocity()); }
 
-// To and fro between two frames.
+// Matches to and fro between two frames.
 void StageFixture::matchTexture() { odometry_.process(matched_count_++ % 2 == 0 ? frame_ : next_frame_); }
 
 void StageFixture::track() {
@@ -139,7 +139,7 @@ void StageFixture::track() {
                  timers_);
 }
 
-// One iteration's sums.
+// Sums up the system of one iteration.
 template <int level>
 void StageFixture::accumulateLevel() {
   const IcpTrackingParameters& icp = parameters_.icp_tracking;

@@ -13,7 +13,7 @@ constexpr size_t kMaxFrames = 100;
 constexpr double kFirstStep = 0.02;  // metres, and radians, from one frame to the next
 constexpr double kMaxGap_s = 0.25;
 
-// Frames a step apart; the step grows so that they do not become too many.
+// Keeps frames a step apart; the step grows so that they do not become too many.
 class FrameChoice {
  public:
   void offer(const RgbdFrame& frame, const Pose& T_W_D) {
@@ -44,7 +44,7 @@ class FrameChoice {
   std::vector<CalibrationFrame> frames_;
 };
 
-// From the poses before and after; none at the ends.
+// Takes the velocity from the poses before and after; it is zero at the ends.
 Vector6d velocityAt(const Trajectory& trajectory, double stamp_s) {
   const auto now =
       std::lower_bound(trajectory.begin(), trajectory.end(), stamp_s,

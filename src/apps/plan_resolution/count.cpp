@@ -20,7 +20,8 @@ constexpr double kMaxPoseGap_s = 0.1;
 
 size_t offsetBytes(const PlanRow& row) { return mapBytes(row.map, 0); }
 
-// The rows [first, the result) whose offsets fit into the limit together, one at least.
+// Returns the end of the rows from `first` on whose offsets fit into the limit together; it is one row at
+// least.
 size_t endOfPass(const ResolutionPlan& plan, size_t first) {
   size_t bytes = offsetBytes(plan.rows[first]), end = first + 1;
   while (end < plan.rows.size() && bytes + offsetBytes(plan.rows[end]) <= plan.request.limit_bytes)
@@ -28,7 +29,7 @@ size_t endOfPass(const ResolutionPlan& plan, size_t first) {
   return end;
 }
 
-// Block selection for some of the rows, frame by frame.
+// Selects blocks for some of the rows, frame by frame.
 class SelectionPass {
  public:
   SelectionPass(const CountingOptions& options, ComputeContext& compute, PlanRow* begin, PlanRow* end)
@@ -89,7 +90,7 @@ struct BlockCounting::Mesh : BlockCounting::Surface {
   TriangleMesh mesh;
 };
 
-// A recording, read as often as needed.
+// Holds a recording, which is read as often as needed.
 struct BlockCounting::Frames : BlockCounting::Surface {
   explicit Frames(const CountingOptions& counting_options)
       : options(counting_options), compute(options.device), recording(open()) {
@@ -168,7 +169,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
     recording.reset();
   }
 
-  // Nothing for a frame that cannot be read, which is said the first time.
+  // Returns nothing for a frame that cannot be read, and says so the first time.
   std::optional<RgbdFrame> nextFrame() {
     try {
       return recording->next();

@@ -10,7 +10,8 @@ struct PairResult {
   NormalEquations equations;
 };
 
-// From the relative pose T_B_A, which is refined. Nothing if too little of A is seen in B.
+// Aligns the frames from the relative pose T_B_A, which is refined. Returns nothing if too little of A is
+// seen in B.
 std::optional<PairResult> matchPair(const CalibrationView& a, const CalibrationView& b, const Pose& T_B_A,
                                     double cutoff_sigmas);
 

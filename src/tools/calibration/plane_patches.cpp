@@ -17,7 +17,7 @@ constexpr double kMinNormalCosine = 0.9;
 constexpr size_t kMinPoints = 400;
 constexpr double kMinExtent = 0.3;  // of the image's width or height
 
-// On the plane, plane . p_D = 1.
+// A point p_D lies on the plane if plane . p_D = 1.
 using Plane = Vector3d;
 
 double inverseDepth(const ViewPoint& point) { return 1.0 / point.p_D.z(); }

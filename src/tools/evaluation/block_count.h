@@ -9,8 +9,8 @@
 
 namespace depth_fusion {
 
-// Counts by block selection itself, which claims each block once; the claims are never met. Takes 4 * N^3
-// bytes.
+// Counts by block selection itself, which claims each block once; no block is allocated for the claims. It
+// takes 4 * N^3 bytes.
 class SelectedBlocks {
  public:
   // The window's middle is the block with the point centre_W.
@@ -20,8 +20,8 @@ class SelectedBlocks {
   void add(const DepthFrame& frame, const Pose& T_W_D);
 
   size_t claimed() const { return claimed_; }
-  // Those that fusion keeps of them: a claim needs a point of the truncation band in the block, data needs
-  // one of its voxels there, and those end a voxel short of the block's far sides.
+  // Returns how many of the claimed blocks fusion keeps: a claim needs a point of the truncation band in the
+  // block, data needs one of its voxels there, and the voxels end a voxel short of the block's far sides.
   size_t kept() const;
 
  private:
@@ -31,7 +31,8 @@ class SelectedBlocks {
   std::unique_ptr<Selection> selection_;
 };
 
-// Blocks of the map's window that have a voxel within the truncation of the mesh, along its normals.
+// Counts the blocks of the map's window that have a voxel within the truncation of the mesh, along its
+// normals.
 size_t blocksAround(const TriangleMesh& mesh, const MapParameters& map, const Eigen::Vector3d& centre_W);
 
 }  // namespace depth_fusion

@@ -16,7 +16,7 @@ constexpr int kTitle_px = 36;
 constexpr int kScale_px = 60;
 const cv::Scalar kInk(40, 40, 40);
 
-// From blue over white to red; grey for what is unknown.
+// Colours go from blue over white to red; grey stands for what is unknown.
 cv::Vec3b colorOf(float value, double limit) {
   if (std::isnan(value)) return {200, 200, 200};
   const double part = std::clamp(value / limit, -1.0, 1.0);
@@ -58,7 +58,7 @@ std::string millimetres(double metres) {
   return text;
 }
 
-// The largest magnitude, rounded up to whole millimetres.
+// Returns the largest magnitude, rounded up to whole millimetres.
 double limitOf(const cv::Mat& values_per_m) {
   float largest = 0.0f;
   for (const float value : cv::Mat_<float>(values_per_m))

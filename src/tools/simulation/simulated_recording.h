@@ -13,7 +13,8 @@ struct SimulationOptions {
   unsigned seed = 1;
   double fps = 30.0;
   double speed = 1.0;  // times the scene's own
-  // Of the recording's fastest moment, tremor aside, in place of speed; 0: as speed says.
+  // These rates are those of the recording's fastest moment, tremor aside. They take the place of `speed`,
+  // unless they are 0.
   double linear_speed_m_s = 0.0;
   double turn_rate_deg_s = 0.0;
   CameraIntrinsics intrinsics;  // width 0: those of the scene's sensor
@@ -24,7 +25,8 @@ class SimulatedRecording : public Recording {
   // Throws Error for an unknown scene or a value that makes no sense.
   explicit SimulatedRecording(const SimulationOptions& options);
 
-  // Depth as CV_32FC1 in metres, colour as BGR, the exact pose. The same options give the same bits.
+  // Frames have depth as CV_32FC1 in metres, colour as BGR and the exact pose. The same options give the same
+  // bits.
   std::optional<RgbdFrame> next() override;
   size_t frameCount() const override { return static_cast<size_t>(options_.frames); }
   std::string description() const override;
