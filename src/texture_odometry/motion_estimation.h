@@ -9,7 +9,7 @@
 
 namespace depth_fusion {
 
-// What one colour camera sees of a point.
+// Holds what one colour camera sees of a point.
 struct Sighting {
   Eigen::Vector2d pixel;
   std::optional<Eigen::Vector3d> point;  // in the camera's frame, where there is depth

@@ -16,7 +16,7 @@ struct MotionResiduals {
   bool within(const InlierGate& gate) const;
 };
 
-// How the true noise compares with the assumed one.
+// Says how the true noise compares with the assumed one.
 struct NoiseScale {
   double pixels = 1.0;
   double depth = 1.0;

@@ -12,9 +12,9 @@
 namespace depth_fusion {
 namespace {
 
-// What is known of a sensor before: neighbouring offsets differ by about 1 % of the depth at 1 m, and as its
-// maker has calibrated it, their mean is 0 to half a percent. Without the latter, small errors of any kind
-// would turn into a large common offset, which real scenes tell little of.
+// This is known of a sensor beforehand: neighbouring offsets differ by about 1 % of the depth at 1 m, and as
+// its maker has calibrated it, their mean is 0 to half a percent. Without the latter, small errors of any
+// kind would turn into a large common offset, which real scenes tell little of.
 constexpr double kNeighbourSigma_per_m = 0.01;
 constexpr double kMeanSigma_per_m = 0.005;
 constexpr double kReadoutSigma_s = 0.03;
