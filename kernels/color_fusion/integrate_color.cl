@@ -18,8 +18,9 @@
 #define MOST_STRETCH 3.0f  // distances are measured along rays, which stretches them on slanting surfaces
 #define MAX_FRAME_WEIGHT 16.0f
 
-// Slope of the distance along an axis, in steps a voxel, within the block: a central difference, or one-sided
-// at the block's border and beside unknown voxels. `place` is the voxels' coordinate along the axis.
+// Returns the slope of the distance along an axis, in steps a voxel, from voxels of the block: a central
+// difference, or a one-sided one at the block's border and beside unknown voxels. `place` is the voxels'
+// coordinate along the axis.
 inline vfloat slope(__global const char* distances, vint voxel, vint place, int stride, vint centre) {
   const vint before = TO_VINT(GATHER(vchar, distances, select(voxel, voxel - stride, place > 0)));
   const vint after = TO_VINT(GATHER(vchar, distances, select(voxel, voxel + stride, place < BLOCK_SIZE - 1)));
@@ -29,7 +30,7 @@ inline vfloat slope(__global const char* distances, vint voxel, vint place, int 
   return TO_VFLOAT(upper - lower) * select((vfloat)(1.0f), (vfloat)(0.5f), both);
 }
 
-// Points in the camera's frame and their pixels; valid where the camera sees them.
+// Holds points in the camera's frame and their pixels, which are valid where the camera sees them.
 typedef struct {
   vfloat x, y, z, u, v;
   vint valid;
@@ -48,7 +49,8 @@ inline Projections project(vfloat x_W, vfloat y_W, vfloat z_W, const TransformAr
   return p;
 }
 
-// Cosine of the angle between gradient and ray, positive seen from free space.
+// Returns the cosine of the angle between gradient and ray; it is positive where the surface is seen from
+// free space.
 inline vfloat viewing_cosine(Projections p, vfloat gx, vfloat gy, vfloat gz, vfloat squared,
                              const TransformArgs T_C_W) {
   const vfloat towards = -(p.x * rotated(T_C_W, 0, gx, gy, gz) + p.y * rotated(T_C_W, 1, gx, gy, gz) +
@@ -58,14 +60,14 @@ inline vfloat viewing_cosine(Projections p, vfloat gx, vfloat gy, vfloat gz, vfl
 
 inline vfloat channel(vuint pixel, int shift) { return TO_VFLOAT(AS_VINT((pixel >> (uint)shift) & 255u)); }
 
-// One channel between four pixels.
+// Interpolates one channel between four pixels.
 inline vfloat between(vuint p00, vuint p10, vuint p01, vuint p11, int shift, vfloat fu, vfloat fv) {
   const vfloat upper = mix(channel(p00, shift), channel(p10, shift), fu);
   const vfloat lower = mix(channel(p01, shift), channel(p11, shift), fu);
   return mix(upper, lower, fv);
 }
 
-// A byte of the new average; the random number makes rounding unbiased.
+// Returns a byte of the new average; the random number makes rounding unbiased.
 inline vuint averaged(vuint old, int shift, vfloat measured, vfloat gain, vfloat random) {
   const vfloat before = channel(old, shift);
   const vint rounded = TO_VINT(before + gain * (measured - before) + random);

@@ -10,7 +10,7 @@ __kernel void copy_memory(__global const float* source, __global float* destinat
   VSTORE(VLOAD(source + first), destination + first);
 }
 
-// 8 multiply-adds a round and lane, in chains that do not wait for each other.
+// Does 8 multiply-adds a round and lane, in chains that do not wait for each other.
 __kernel void multiply_add(__global float* sums, int rounds, float factor) {
   const vfloat start = TO_VFLOAT(LANE_INDICES);
   vfloat a = start, b = start + 1, c = start + 2, d = start + 3, e = start + 4, f = start + 5, g = start + 6,
@@ -28,7 +28,7 @@ __kernel void multiply_add(__global float* sums, int rounds, float factor) {
   VSTORE(a + b + c + d + e + f + g + h, sums + get_global_id(0) * SIMD_WIDTH);
 }
 
-// One gather a round and lane, from anywhere in a table whose size is a power of two.
+// Gathers one word a round and lane, from anywhere in a table whose size is a power of two.
 __kernel void gather_words(__global const int* table, __global int* sums, int rounds, int last_index) {
   const int first = get_global_id(0) * SIMD_WIDTH;
   vuint place = (AS_VUINT(LANE_INDICES) + (uint)first) * 2654435769u;

@@ -4,12 +4,12 @@
 #include "shared/block_map.h"
 #include "shared/image.h"
 
-// Sides of the block's middle that the octants lie on.
+// Each octant lies on these sides of the block's middle.
 #define SIDE_X ((float8)(-1, 1, -1, 1, -1, 1, -1, 1))
 #define SIDE_Y ((float8)(-1, -1, 1, 1, -1, -1, 1, 1))
 #define SIDE_Z ((float8)(-1, -1, -1, -1, 1, 1, 1, 1))
 
-// What an octant covers: metres, and pixels along one axis of the image.
+// Holds what octants cover, in metres or in pixels along one axis of the image.
 typedef struct {
   float8 lowest, highest;
 } Extents;

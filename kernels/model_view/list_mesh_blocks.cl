@@ -10,7 +10,7 @@
 #define PLACE_NONE (-1)
 #define PLACE_CLAIMED (-2)
 
-// Blocks near the surface whose cells, which reach a voxel beyond the block, may be in the view.
+// Lists the blocks near the surface whose cells, which reach a voxel beyond the block, may be in the view.
 __kernel void list_surface_blocks(__global const int* groups, int group_count, int slots,
                                   __global const int4* block_indices, __global const int* block_states,
                                   __global int* listed, __global int* count, CameraArgs camera,
@@ -37,7 +37,7 @@ __kernel void place_cores(__global const int* members, __global int* places, int
   if (i < cores) places[members[i]] = i;
 }
 
-// count: members, the number of cores before. Each lender is claimed once.
+// `count` is the number of members; it begins as that of the cores. Each lender is claimed once.
 __kernel void place_lenders(__global int* members, __global int* places, __global int* count,
                             __global const int4* block_indices, __global const int* offsets, int cores,
                             GridArgs grid) {
@@ -67,7 +67,7 @@ __kernel void describe_members(__global MeshBlockArgs* blocks, __global const in
   }
 }
 
-// firsts: of each member, the number of its first vertex and of its first triangle
+// `firsts` holds, for each member, the numbers of its first vertex and of its first triangle.
 __kernel void number_members(__global MeshBlockArgs* blocks, __global const uint2* firsts, int count) {
   const int i = get_global_id(0);
   if (i >= count) return;

@@ -1,6 +1,6 @@
-// Triangles to depth and normals: first every triangle's depth, the nearest of a pixel by an atomic, then the
-// normals of those that are the nearest. A work-item is a vertex (project_vertices), a triangle (all of them,
-// then those drawn) or, at the end, a pixel.
+// Rasterises triangles to depth and normals: first every triangle's depth, of which an atomic keeps the
+// nearest of a pixel, then the normals of the triangles that are the nearest. A work-item is a vertex
+// (project_vertices), a triangle (all of them, then those drawn) or, at the end, a pixel.
 //   vertices    position and normal in W, six floats
 //   projected   u, v in pixels, 1 / z, and 0; 1 / z is 0 for a vertex nearer than MIN_Z
 //   triangles   three vertices, counter-clockwise seen from free space
@@ -11,7 +11,7 @@
 #include "shared/normal.h"
 
 #define MIN_Z 0.02f
-// How far, in pixels, a triangle reaches beyond its sides, so that rounding opens no gap between two of them.
+// A triangle reaches so many pixels beyond its sides, so that rounding opens no gap between two triangles.
 #define SEAM_PX 1e-3f
 #define SAME_DEPTH 1.00001f
 
@@ -54,7 +54,7 @@ inline ScreenTriangle screen_triangle(__global const float4* projected, __global
   return t;
 }
 
-// Barycentric weights of the pixel's centre.
+// Returns the barycentric weights of the pixel's centre.
 inline float3 weights_at(const ScreenTriangle t, int x, int y) {
   const float2 p = (float2)(x, y) - t.a.xy;
   const float2 ab = t.b.xy - t.a.xy, ac = t.c.xy - t.a.xy;
@@ -72,8 +72,8 @@ inline float depth_at(const ScreenTriangle t, float3 weights) {
   return 1.0f / clamp(inverse_z, fmin(t.a.z, fmin(t.b.z, t.c.z)), fmax(t.a.z, fmax(t.b.z, t.c.z)));
 }
 
-// Lists the triangles that were the nearest at some time: many are smaller than a pixel and cover none. What
-// they cover loses its normal.
+// Lists the triangles that were the nearest of a pixel at some time; many others are smaller than a pixel and
+// cover none. The pixels that they cover lose their normals.
 __kernel void rasterise_depth(__global uint* normals, __global int* nearest, __global int* drawn,
                               __global int* drawn_count, __global const float4* projected,
                               __global const uint* triangles, int count, CameraArgs camera, float min_range_m,
@@ -96,7 +96,7 @@ __kernel void rasterise_depth(__global uint* normals, __global int* nearest, __g
   if (is_drawn) drawn[atomic_inc(drawn_count)] = i;
 }
 
-// normals: in frame D. Where triangles share an edge, the largest word stays, whichever comes first.
+// The normals are in frame D. Where triangles share an edge, the largest word stays, whichever comes first.
 __kernel void rasterise_normals(__global uint* normals, __global const int* nearest,
                                 __global const int* drawn, __global const float4* projected,
                                 __global const float* vertices, __global const uint* triangles, int count,
@@ -118,7 +118,7 @@ __kernel void rasterise_normals(__global uint* normals, __global const int* near
   }
 }
 
-// The view's depth: `nearest` as metres; 0 where no triangle is.
+// Writes the view's depth: `nearest` as metres, 0 where there is no triangle.
 __kernel void resolve_depth(__global float* depth, __global const int* nearest, CameraArgs camera) {
   const int x = get_global_id(0);
   const int y = get_global_id(1);

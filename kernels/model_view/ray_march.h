@@ -1,6 +1,6 @@
-// Following rays through the block-sparse map to where the distance first goes from positive to negative.
-// Rays are parametrised by depth t (z in frame D): p(t) = origin + t * direction, in voxels from the first
-// voxel of the window, so that the conversion to integers, which truncates, rounds down.
+// Follows rays through the block-sparse map to where the distance first goes from positive to negative. Rays
+// are parametrised by depth t (z in frame D): p(t) = origin + t * direction, in voxels from the first voxel
+// of the window, so that the conversion to integers, which truncates, rounds down.
 #include "model_view/ray_ranges.h"
 #include "shared/image.h"
 #include "shared/window.h"
@@ -37,7 +37,7 @@ inline Rays make_rays(vint u, vint v, const CameraArgs camera, const TransformAr
   return rays;
 }
 
-// Where the rays of a patch have come to.
+// Holds where the rays of a patch have come to.
 typedef struct {
   Rays rays;
   ulong bins;  // where there may be a surface
@@ -47,14 +47,14 @@ typedef struct {
   vfloat hit_t;  // 0 = none
 } March;
 
-// What is at t.
+// Holds what the map has at t.
 typedef struct {
   vint block_x, block_y, block_z;
   vint allocated;
   vint distance;
 } Voxels;
 
-// `rays` where `active`, from where their tiles have a surface.
+// Starts those of `rays` that are `active` at the depth from which on their tiles have a surface.
 inline March begin_march(const Rays rays, vint active, vfloat nearest_m, ulong bins,
                          const RayRangeArgs range) {
   March march;
@@ -67,7 +67,8 @@ inline March begin_march(const Rays rays, vint active, vfloat nearest_m, ulong b
   return march;
 }
 
-// `origin` is half a voxel ahead, for blocks hold the points that round to their voxels.
+// Looks up the voxels at t. `origin` is half a voxel ahead, for blocks hold the points that round to their
+// voxels.
 inline Voxels look(const March march, const Point origin, __global const int* offsets,
                    __global const char* voxels, const GridArgs grid) {
   const int n = grid.blocks_per_axis;
@@ -88,7 +89,7 @@ inline Voxels look(const March march, const Point origin, __global const int* of
   return at;
 }
 
-// Depth t at which a ray leaves a block along one axis.
+// Returns the depth t at which a ray leaves a block along one axis.
 inline vfloat exit_depth(vint block, float origin, vfloat direction) {
   const vint boundary = select(block, block + 1, direction > 0.0f) << BLOCK_SIZE_LOG2;
   return (TO_VFLOAT(boundary) - origin) / select(direction, (vfloat)(1e-9f), fabs(direction) < 1e-9f);
@@ -101,8 +102,8 @@ inline vfloat step_out_of_block(const March march, const Voxels at, const Point 
   return max(exit_t, march.t) + 0.05f * march.rays.t_per_voxel;
 }
 
-// As far as the distance says, and where it falls more slowly, a little beyond zero_t, where it would be
-// zero.
+// Steps as far as the distance says. Where the distance falls more slowly, the step goes a little beyond
+// zero_t, where the distance would be zero.
 inline vfloat step_in_band(const March march, vint distance, vfloat zero_t, float voxels_per_step) {
   const vfloat safe_t = march.t + fabs(TO_VFLOAT(distance)) * voxels_per_step * march.rays.t_per_voxel;
   const vint falling = (march.previous != TSDF_CHI) & (distance > 0) & (march.previous > distance);
@@ -146,8 +147,8 @@ inline void advance(March* march, const Voxels at, const Point origin, const Gri
   march->active = march->active & (next_t < range.max_m);
 }
 
-// Follows the rays of up to MAX_MARCHES vectors to their crossings. While one waits for its voxels, the
-// others go on.
+// Follows the rays of up to MAX_MARCHES vectors to their crossings. While one vector waits for its voxels,
+// the others go on.
 inline void follow(March* marches, int count, const Point origin, __global const int* offsets,
                    __global const char* voxels, const GridArgs grid, const RayRangeArgs range) {
   const Point middle = {origin.x + 0.5f, origin.y + 0.5f, origin.z + 0.5f};

@@ -11,7 +11,7 @@ inline int depth_bin(float depth_m, const RayRangeArgs range) {
 
 inline int tiles_across(int pixels) { return (pixels + RANGE_TILE - 1) / RANGE_TILE; }
 
-// The tile that each pixel lies in; pixels beside the image count as of its border.
+// Returns the tile that each pixel lies in; pixels beside the image count as pixels of its border.
 inline vint tiles_of(vint x, vint y, const CameraArgs camera) {
   return min(y, (vint)(camera.height - 1)) / RANGE_TILE * tiles_across(camera.width) +
          min(x, (vint)(camera.width - 1)) / RANGE_TILE;
@@ -21,7 +21,8 @@ inline ulong bins_of(int tile, __global const uint* occupied) {
   return upsample(occupied[2 * tile + 1], occupied[2 * tile]);
 }
 
-// Depth from which on there may be a surface again, at or after depth_m; MAXFLOAT if there is none.
+// Returns the depth, at or after depth_m, from which on there may be a surface again; MAXFLOAT if there is
+// none.
 inline float next_occupied(ulong occupied, float depth_m, const RayRangeArgs range) {
   const int bin = depth_bin(depth_m, range);
   const ulong rest = occupied >> bin;

@@ -1,8 +1,8 @@
 // Ray casting of the block-sparse map, as the paper has it: a ray is followed to the voxel where the distance
-// first goes from positive to negative, where trilinear interpolation finds the surface, and its normal. One
-// ray of every 2x2 pixels is followed; the others look for the surface where its plane meets them, and are
-// followed if it is not there, but show nothing where the first one met nothing. So what is narrower than two
-// pixels may be missing, or taken for what lies behind it.
+// first goes from positive to negative; trilinear interpolation finds the surface and its normal there. One
+// ray of every 2x2 pixels is followed. The others look for the surface where its plane meets them, and are
+// followed if it is not there; they show nothing where the first one met nothing. So what is narrower than
+// two pixels may be missing, or be taken for what lies behind it.
 #include "model_view/ray_march.h"
 #include "model_view/trilinear.h"
 #include "shared/normal.h"
@@ -10,8 +10,8 @@
 #define PATCHES RAY_PATCHES(SIMD_WIDTH)
 #define PATCH_RAYS (RAY_STRIDE * RAY_STRIDE)
 
-// t: depth in metres; gradient of the distance in frame W, in steps of the distance byte a voxel; known: 0 =
-// no surface
+// `t` is the depth in metres; the gradient is that of the distance in frame W, in steps of the distance byte
+// a voxel; `known` is 0 where there is no surface.
 typedef struct {
   vfloat t, gradient_x, gradient_y, gradient_z;
   vint known;
@@ -22,7 +22,7 @@ inline vfloat along(const Rays rays, const Surface surface) {
          surface.gradient_z * rays.direction_z;
 }
 
-// By one Newton step from t, which is about a voxel away at most.
+// Finds the surface by one Newton step from t, which is at most about a voxel away from it.
 inline Surface find_surface(const Rays rays, vfloat t, vint active, const Point origin,
                             __global const int* offsets, __global const char* voxels, const GridArgs grid) {
   const Sample sample = interpolate(origin.x + t * rays.direction_x, origin.y + t * rays.direction_y,
@@ -35,7 +35,8 @@ inline Surface find_surface(const Rays rays, vfloat t, vint active, const Point 
   return surface;
 }
 
-// Where other rays, a pixel beside, meet the plane of a surface, if the surface is there, within a voxel.
+// Finds the surface on rays a pixel beside the first ones, where they meet its plane; it counts as known if
+// it lies within a voxel of the plane.
 inline Surface find_beside(const Rays rays, const Rays first_rays, const Surface first, vint in_view,
                            const Point origin, __global const int* offsets, __global const char* voxels,
                            const GridArgs grid) {
@@ -46,7 +47,7 @@ inline Surface find_beside(const Rays rays, const Rays first_rays, const Surface
   return surface;
 }
 
-// Stores rows of words that stand side by side in turn, of pixels with even and with odd columns.
+// Stores rows of words; `even` holds those of the pixels with even columns, `odd` those with odd ones.
 inline void store_rows(vuint even, vuint odd, int x, int y, __global uint* image, const CameraArgs camera) {
 #if SIMD_WIDTH == 1
   if (y >= camera.height) return;
@@ -64,7 +65,7 @@ inline void store_rows(vuint even, vuint odd, int x, int y, __global uint* image
 #endif
 }
 
-// Component i of the gradient in frame D, by the rotation's transpose.
+// Returns component i of the gradient in frame D, by the rotation's transpose.
 inline vfloat gradient_component(const Surface surface, int i, const TransformArgs T_W_D) {
   return T_W_D.rotation[i] * surface.gradient_x + T_W_D.rotation[3 + i] * surface.gradient_y +
          T_W_D.rotation[6 + i] * surface.gradient_z;
@@ -87,8 +88,8 @@ inline void store_surfaces(const Surface even, const Surface odd, int x, int y, 
   store_rows(normal_bits(even, T_W_D), normal_bits(odd, T_W_D), x, y, normals, camera);
 }
 
-// Pixels whose rays are yet to be followed, as column and row, 16 bits each. Few of a patch's are, so that
-// those of all the patches are put together into vectors.
+// Lists pixels whose rays are yet to be followed, as column and row, 16 bits each. A patch has few of them,
+// so that those of all the patches are put together into vectors.
 typedef struct {
   uint pixels[PATCHES * (PATCH_RAYS - 1) * SIMD_WIDTH + SIMD_WIDTH];
   int count;
@@ -106,7 +107,7 @@ inline void append(PixelList* list, vint column, vint row, vint wanted) {
   }
 }
 
-// Stores a word a pixel, where `wanted`.
+// Stores a word for each pixel that is `wanted`.
 inline void scatter(vuint words, vint pixels, vint wanted, __global uint* image) {
   uint word[SIMD_WIDTH];
   int pixel[SIMD_WIDTH], is_wanted[SIMD_WIDTH];
@@ -138,7 +139,7 @@ inline void cast_listed(const PixelList* list, ulong bins, const Point origin, _
   }
 }
 
-// depth: metres, 0 = none; normals: towards free space, in frame D
+// Writes depth in metres, 0 where there is none, and normals in frame D that point to free space.
 __kernel void raycast(__global const int* offsets, __global const char* voxels, __global const float* nearest,
                       __global const uint* occupied, __global float* depth, __global uint* normals,
                       CameraArgs camera, TransformArgs T_W_D, GridArgs grid, RayRangeArgs range) {

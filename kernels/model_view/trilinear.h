@@ -1,8 +1,8 @@
 // Trilinear interpolation of the distance. Coordinates are voxels from the first voxel of the window.
 #include "shared/window.h"
 
-// Along one axis, of the two voxels around a coordinate: the first one's place in its block, the second's,
-// and both their blocks' in the window.
+// Holds, for the two voxels around a coordinate along one axis, their places in their blocks, and their
+// blocks' places in the window.
 typedef struct {
   vint in_block[2], block[2];
   vint crosses;  // whether the second voxel lies in another block
@@ -22,8 +22,9 @@ inline AxisNeighbours axis_neighbours(vint voxel, int axis, const GridArgs grid)
   return result;
 }
 
-// Slots of the blocks of a cell's corners, numbered by the axes in which they are the second voxel (bit 0: x,
-// 1: y, 2: z). Looked up only where the cell crosses into another block along all of these.
+// Finds the slots of the blocks of a cell's corners. A corner's number says along which axes it is the second
+// voxel (bit 0: x, 1: y, 2: z); its slot is looked up only where the cell crosses into another block along
+// all of these.
 inline void find_slots(const AxisNeighbours axes[3], vint inside, __global const int* offsets,
                        int blocks_per_axis, vint slots[8]) {
 #pragma unroll
@@ -45,8 +46,8 @@ inline void find_slots(const AxisNeighbours axes[3], vint inside, __global const
   }
 }
 
-// Trilinear interpolation of the distance at p, in steps of the distance byte, and its gradient in steps a
-// voxel. known: 0 where one of the eight voxels is chi.
+// Holds the distance interpolated at p, in steps of the distance byte, and its gradient in steps a voxel;
+// `known` is 0 where one of the eight voxels is chi.
 typedef struct {
   vfloat value, gradient_x, gradient_y, gradient_z;
   vint known;

@@ -1,5 +1,5 @@
-// Depth images of a moving rolling shutter to what the sensor would have seen all at once, at the stamp.
-// Depth 0 = none. A work-item takes SIMD_WIDTH pixels of a row.
+// Converts depth images of a moving rolling shutter to what the sensor would have seen all at once, at the
+// stamp. Depth 0 = none. A work-item takes SIMD_WIDTH pixels of a row.
 #include "shared/image.h"
 
 // With the sensor moving at (rotation, velocity), the point p that a row saw at `time_s` before the stamp

@@ -1,5 +1,5 @@
-// Depth images to clean depth in metres, pyramid and normals. Depth 0 = none. A work-item takes SIMD_WIDTH
-// pixels of a row, or one tile (max_tiles).
+// Converts depth images to clean depth in metres, pyramid and normals. Depth 0 = none. A work-item takes
+// SIMD_WIDTH pixels of a row, or one tile (max_tiles).
 #include "shared/image.h"
 #include "shared/normal.h"
 
@@ -8,7 +8,7 @@ inline vfloat within_range(vfloat depth_m, vint x, const CameraArgs camera, cons
   return select((vfloat)(0.0f), depth_m, good);
 }
 
-// Without the sensor's systematic error, if the program is built with -DCORRECTED.
+// Takes the sensor's systematic error out, if the program is built with -DCORRECTED.
 inline vfloat corrected(vfloat depth_m, __global const float* offsets) {
 #ifdef CORRECTED
   return depth_m / (1.0f + depth_m * VLOAD(offsets));
@@ -17,8 +17,8 @@ inline vfloat corrected(vfloat depth_m, __global const float* offsets) {
 #endif
 }
 
-// input: width * height values without padding, and SIMD_WIDTH more of any kind.
-// offsets: an image of what the inverse depth lacks, read with -DCORRECTED.
+// `input` holds width * height values without padding, and SIMD_WIDTH more of any kind. `offsets` is an image
+// of what the inverse depth lacks; it is read with -DCORRECTED.
 __kernel void depth_to_metres_u16(__global const ushort* input, __global const float* offsets,
                                   __global float* depth, CameraArgs camera, RangeArgs range) {
   const int x = get_global_id(0) * SIMD_WIDTH;
@@ -67,7 +67,8 @@ __kernel void filter_bilateral(__global const float* depth, __global float* filt
   VSTORE(select((vfloat)(0.0f), sum / weights, centre > 0.0f), filtered + pixel_index(x, y, camera));
 }
 
-// Pixels of the half size image: the mean of those of a pixel's 2x2 that lie near the closest one.
+// Computes pixels of the image of half the size: the mean of those of a pixel's 2x2 that lie near the closest
+// one.
 __kernel void halve_depth(__global const float* depth, __global float* half_depth, CameraArgs camera,
                           CameraArgs half_camera, SensorArgs sensor, float cutoff_sigmas) {
   const int x = get_global_id(0) * SIMD_WIDTH;
@@ -93,8 +94,8 @@ __kernel void halve_depth(__global const float* depth, __global float* half_dept
   VSTORE(select((vfloat)(0.0f), sum / count, some), half_depth + pixel_index(x, y, half_camera));
 }
 
-// Unit normals towards the camera from a plane fitted to the depth's 3x3 neighbours NORMAL_STEP pixels apart;
-// 0 where a neighbour is missing or the depth jumps.
+// Computes unit normals towards the camera from a plane fitted to the depth's 3x3 neighbours NORMAL_STEP
+// pixels apart; a normal is 0 where a neighbour is missing or the depth jumps.
 #define NORMAL_STEP 2
 __kernel void compute_normals(__global const float* depth, __global uint* normals, CameraArgs camera,
                               float max_relative_step) {
@@ -126,7 +127,7 @@ __kernel void compute_normals(__global const float* depth, __global uint* normal
   VSTORE(normal, normals + index);
 }
 
-// The largest depth of each 8x8 tile.
+// Finds the largest depth of each 8x8 tile.
 __kernel void max_tiles(__global const float* depth, __global float* tiles, CameraArgs camera,
                         int tile_columns, int tile_count) {
   const int tile = get_global_id(0);

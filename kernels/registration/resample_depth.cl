@@ -1,7 +1,7 @@
-// The depth that another camera, a pinhole one, would measure: each of its pixels looks up where the depth
-// camera saw what lies on its ray, and takes the depth between the four pixels there, of those that see one
-// surface. Averages of noise so stay averages, where the nearest of several pixels would be too near. A
-// work-item takes SIMD_WIDTH pixels of a row.
+// Computes the depth that another camera, a pinhole one, would measure. Each of its pixels looks up where the
+// depth camera saw what lies on its ray, and interpolates between those of the four pixels there that see one
+// surface. Averages of noise stay averages in this way, where the nearest of several pixels would be too
+// near. A work-item takes SIMD_WIDTH pixels of a row.
 //   depth    of the depth camera D as its lens distorts it, metres, 0 = none
 //   result   of the other camera C, metres, 0 = none
 #include "shared/image.h"
@@ -9,7 +9,7 @@
 #define ITERATIONS 4
 #define CONVERGED 1e-4f  // the change of the depth, as a part of it
 
-// Where a lens takes the ray (x, y, 1).
+// Computes where a lens takes the ray (x, y, 1).
 inline void distort(const LensArgs lens, vfloat* x, vfloat* y) {
   const vfloat u = *x, v = *y;
   const vfloat r2 = u * u + v * v;
@@ -23,7 +23,7 @@ inline void distort(const LensArgs lens, vfloat* x, vfloat* y) {
   *x = select((vfloat)(-MAXFLOAT), *x, r2 <= lens.max_squared_radius);
 }
 
-// The depth camera's depth along its ray (x, y, 1).
+// Returns the depth camera's depth along its ray (x, y, 1).
 inline vfloat depth_along(vfloat x, vfloat y, __global const float* depth, const CameraArgs camera,
                           const LensArgs lens, float max_relative_step) {
   distort(lens, &x, &y);
@@ -51,7 +51,7 @@ inline vfloat depth_along(vfloat x, vfloat y, __global const float* depth, const
   return select((vfloat)(0.0f), sum / weights, inside & (nearest > 0.0f));
 }
 
-// C is D without its lens.
+// Serves a camera C that is D without its lens.
 __kernel void rectify_depth(__global const float* depth, __global float* result, CameraArgs camera,
                             LensArgs lens, CameraArgs other_camera, float max_relative_step) {
   const int x = get_global_id(0) * SIMD_WIDTH;
@@ -64,9 +64,9 @@ __kernel void rectify_depth(__global const float* depth, __global float* result,
   VSTORE(select((vfloat)(0.0f), z, column < other_camera.width), result + pixel_index(x, y, other_camera));
 }
 
-// C stands beside D: which of D's pixels a ray meets depends on the depth itself, which the nearest of the
-// splatted depths around begins with. A ray that meets none of them, or none that the others agree with, has
-// no depth.
+// Serves a camera C that stands beside D. Which of D's pixels a ray meets depends on the depth itself, so
+// that the search begins with the nearest of the splatted depths around. A ray that meets none of them, or
+// none that the others agree with, has no depth.
 //   splatted  D's depth at C's pixels, one pixel each, the nearest; float bits or NO_DEPTH_BITS
 //   radius    pixels of C between one of D's and the next at most
 __kernel void register_depth(__global const float* depth, __global const int* splatted,

@@ -7,7 +7,8 @@
 #define BLOCK_SIZE (1 << BLOCK_SIZE_LOG2)
 #define BLOCK_VOXELS (1 << (3 * BLOCK_SIZE_LOG2))
 
-// Index in the offset buffer of the block with the given coordinates, or -1 outside of the window.
+// Returns the index in the offset buffer of the block with the given coordinates, or -1 outside of the
+// window.
 inline int block_address(int3 block, const GridArgs grid) {
   const int n = grid.blocks_per_axis;
   int3 in_window = block - (int3)(grid.origin[0], grid.origin[1], grid.origin[2]);
@@ -17,26 +18,26 @@ inline int block_address(int3 block, const GridArgs grid) {
   return in_window.x + n * (in_window.y + n * in_window.z);
 }
 
-// The slot with a number of the groups in view, or -1 if there is none.
+// Returns the slot with the given number among those of the groups in view, or -1 if there is none.
 inline int numbered_slot(int number, __global const int* groups, int group_count, int slots) {
   if (number >= group_count * SLOTS_PER_GROUP) return -1;
   const int slot = groups[number / SLOTS_PER_GROUP] * SLOTS_PER_GROUP + number % SLOTS_PER_GROUP;
   return slot < slots ? slot : -1;
 }
 
-// The work-item's slot of the groups in view, or -1 if it has none.
+// Returns the work-item's slot of the groups in view, or -1 if it has none.
 inline int slot_in_view(__global const int* groups, int group_count, int slots) {
   return numbered_slot(get_global_id(0), groups, group_count, slots);
 }
 
-// Number of a voxel in its block.
+// Returns the number of a voxel in its block.
 inline int voxel_number(int3 in_block) {
   return in_block.x + (in_block.y << BLOCK_SIZE_LOG2) + (in_block.z << (2 * BLOCK_SIZE_LOG2));
 }
 
-// Number of a block's first colour in the colour pool.
+// Returns the number of a block's first colour in the colour pool.
 inline size_t block_colors(int slot) { return (size_t)slot * BLOCK_VOXELS; }
 
-// Byte offsets of a block's distances and certainties in the voxel pool.
+// Return the byte offsets of a block's distances and certainties in the voxel pool.
 inline size_t block_distances(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS); }
 inline size_t block_certainties(int slot) { return (size_t)slot * (2 * BLOCK_VOXELS) + BLOCK_VOXELS; }

@@ -14,8 +14,8 @@ inline float4 color_of_voxel(int3 voxel, __global const int* offsets, __global c
   return unpack_color(colors[block_colors(slot) + voxel_number(voxel & (BLOCK_SIZE - 1))]);
 }
 
-// Colour at a point given in voxels: the mean of the eight voxels around it that have one, the nearer and the
-// surer the more. Component w is 0 if none has.
+// Returns the colour at a point given in voxels: the mean of those of the eight voxels around it that have
+// one, in which nearer and surer voxels weigh more. Component w is 0 if none has a colour.
 inline float4 sample_color(float3 p_vox, __global const int* offsets, __global const uint* colors,
                            const GridArgs grid) {
   const float3 lowest = floor(p_vox);
@@ -32,8 +32,8 @@ inline float4 sample_color(float3 p_vox, __global const int* offsets, __global c
   return sum.w > least_weight ? (float4)(sum.xyz / sum.w, sum.w) : (float4)(0.0f);
 }
 
-// The same, and where those eight have none the mean of the voxels up to NEARBY_VOX away, for pictures and
-// meshes.
+// Returns the same and, where those eight have no colour, the mean of the voxels up to NEARBY_VOX away, for
+// pictures and meshes.
 #define NEARBY_VOX 2
 inline float4 sample_color_nearby(float3 p_vox, __global const int* offsets, __global const uint* colors,
                                   const GridArgs grid) {

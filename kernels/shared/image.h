@@ -17,8 +17,8 @@ inline float3 transform_point(const TransformArgs T, float3 p) {
   return rotate_point(T, p) + (float3)(T.translation[0], T.translation[1], T.translation[2]);
 }
 
-// Whether a sphere, given in the camera's frame, reaches into what the camera sees: ahead of it, and on the
-// inner side of the planes through its image's borders.
+// Tells whether a sphere, given in the camera's frame, reaches into what the camera sees: ahead of the
+// camera, and on the inner side of the planes through its image's borders.
 inline bool sphere_in_view(float3 centre, float radius, const CameraArgs camera) {
   const float left = camera.cx + 1.0f, right = camera.width - camera.cx;
   const float top = camera.cy + 1.0f, bottom = camera.height - camera.cy;
@@ -30,7 +30,7 @@ inline bool sphere_in_view(float3 centre, float radius, const CameraArgs camera)
          bottom * z - y > -radius * sqrt(fy2 + bottom * bottom);
 }
 
-// Component `row` of the rotated vectors, one a lane.
+// Returns component `row` of the rotated vectors, one vector a lane.
 inline vfloat rotated(const TransformArgs T, int row, vfloat x, vfloat y, vfloat z) {
   return T.rotation[3 * row] * x + T.rotation[3 * row + 1] * y + T.rotation[3 * row + 2] * z;
 }

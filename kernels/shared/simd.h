@@ -4,12 +4,12 @@
 #define SIMD_WIDTH 1
 #endif
 
-// PoCL would call large functions, and copy their structs byte by byte.
+// PoCL would call large functions, and copy their structs byte by byte; so they are inlined by force.
 #undef inline
 #define inline static __attribute__((always_inline))
 
-// A vector of global memory whose address is a multiple of its size. vload and vstore assume less: PoCL
-// stores bytes one by one.
+// Accesses a vector of global memory whose address is a multiple of its size. vload and vstore assume less,
+// so that PoCL stores bytes one by one.
 #define ALIGNED(type, pointer) (*(__global type*)(pointer))
 
 // Asks for the cache line that a byte of global memory lies in. PoCL's prefetch() does nothing.
@@ -116,24 +116,24 @@ inline float least_lane(float16 v) {
 #endif
 #define ELEMENT(pointer, i) ((pointer)[i])
 #define GATHER(type, pointer, i) EACH_LANE(type, ELEMENT, pointer, i)
-// Signed bytes, as integers. A gather of words and shifts are faster on CPUs than one of bytes.
+// Gathers signed bytes as integers. A gather of words, and shifts, are faster on CPUs than a gather of bytes.
 #define GATHER_BYTES(pointer, i) \
   (GATHER(vint, (__global const int*)(pointer), (i) >> 2) << (24 - (((i)&3) << 3)) >> 24)
-// Four bytes from each place on, the first one the lowest of a word.
+// Gathers four bytes from each place on; the first one is the lowest of a word.
 typedef struct __attribute__((packed)) {
   int word;
 } UnalignedInt;
 #define FOUR_BYTES(pointer, i) (((__global const UnalignedInt*)((pointer) + (i)))->word)
 #define GATHER_FOUR_BYTES(pointer, i) EACH_LANE(vint, FOUR_BYTES, pointer, i)
-// Words at indices that stand in memory. Volatile, else PoCL takes the CPU's gather instruction, which is
-// slower.
+// Gathers words at indices that stand in memory. They are volatile, for otherwise PoCL takes the CPU's gather
+// instruction, which is slower.
 inline vuint gather_from_memory(__global const volatile uint* words, const int* indices) {
   return WORDS_AT(words, indices);
 }
 #define SUM_LANES(v) sum_lanes(v)
 #define LEAST(v) least_lane(v)
 #define FIRST_LANE(v) ((v).s0)
-// Every other lane of the two vectors one after the other.
+// Take every other lane of the two vectors, first of `a`, then of `b`.
 #define EVEN_LANES(a, b) ((vfloat)((a).even, (b).even))
 #define ODD_LANES(a, b) ((vfloat)((a).odd, (b).odd))
 #endif

@@ -15,8 +15,8 @@
   0x1fe  // some voxel lies within a voxel's diagonal of the surface: a bit an octant of the block,
 #define BLOCK_NEAR_SURFACE_SHIFT 1  // from this one on, in x, y and z
 
-// Voxels that a work-item of the kernels over whole blocks takes: one on a GPU; on a CPU a block, or a large
-// block's slice.
+// A work-item of the kernels over whole blocks takes so many voxels: one on a GPU; on a CPU a block, or a
+// large block's slice.
 #define VOXELS_PER_ITEM(simd_width, block_size)     \
   ((simd_width) == 1  ? 1                           \
    : (block_size) > 8 ? (block_size) * (block_size) \
@@ -42,10 +42,11 @@
 #define DISTANCE_PLANE 1
 #define DISTANCE_REFINED 2
 
-// Slots, one after the other, that are looked at or left out together.
+// So many slots, one after the other, are looked at or left out together.
 #define SLOTS_PER_GROUP 64
 
-// Slots that a work-item tests for visibility: one on a GPU; on a CPU many, which it lists with one atomic.
+// A work-item tests so many slots for visibility: one on a GPU; on a CPU many, which it lists with one
+// atomic.
 #define SLOTS_PER_ITEM(simd_width) ((simd_width) == 1 ? 1 : 16)
 
 // Pixels per axis of the tiles with the largest depth, and with the range of the rays.
@@ -62,7 +63,7 @@
 // Bits of the largest float: no depth yet, where the nearest is looked for by their order as integers.
 #define NO_DEPTH_BITS 0x7f7fffff
 
-// Bins of depth in which a tile's rays may hit, a bit each.
+// A tile's rays may hit in some of these bins of depth, which have a bit each.
 #define DEPTH_BINS 64
 
 // Rays are cast in patches of pixels, of which one in RAY_STRIDE in each axis makes a vector,
@@ -106,7 +107,7 @@ typedef struct {
   int wrapped_origin[3];  // origin modulo blocks_per_axis
 } GridArgs;
 
-// How depth images become clean depth.
+// Says how depth images become clean depth.
 typedef struct {
   float unit_m;  // metres a unit of the input
   float min_range_m, max_range_m;
@@ -120,8 +121,8 @@ typedef struct {
   float readout_s, stamp_delay_s;
 } SensorMotionArgs;
 
-// Bilateral filter of radius 2: weights of columns and rows 0, 1 and 2 away, and the depth difference, in
-// standard deviations of the sensor's noise, at which a neighbour counts no more.
+// Describes the bilateral filter, which has radius 2: the weights of columns and rows 0, 1 and 2 away, and
+// the depth difference, in standard deviations of the sensor's noise, at which a neighbour counts no more.
 typedef struct {
   float spatial_weights[3];
   float cutoff_sigmas;
@@ -133,7 +134,7 @@ typedef struct {
   float bins_per_m;
 } RayRangeArgs;
 
-// Where and how densely block selection samples the depth image.
+// Says where and how densely block selection samples the depth image.
 typedef struct {
   int stride_px;
   float dense_from_m;  // nearer, every other sample in each axis does
@@ -141,15 +142,15 @@ typedef struct {
   int capacity;        // of the list of requests
 } SelectionArgs;
 
-// The depth sensor's noise. Axial: sigma = base + growth (z - from)^2. Lateral: how far from a pixel's ray it
-// measures.
+// Describes the depth sensor's noise. The axial one has sigma = base + growth (z - from)^2; the lateral one
+// says how far from a pixel's ray the sensor measures.
 typedef struct {
   float sigma_base_m, sigma_growth_per_m, sigma_from_m;
   float lateral_sigma_px;
   float edge_sigmas;  // beside a depth edge, times the axial sigma
 } SensorArgs;
 
-// The one formula of the axial sigma, for numbers and vectors, on host and device.
+// This is the one formula of the axial sigma, for numbers and vectors, on host and device.
 #define AXIAL_SIGMA_M(sensor, z) \
   ((sensor).sigma_base_m +       \
    (sensor).sigma_growth_per_m * ((z) - (sensor).sigma_from_m) * ((z) - (sensor).sigma_from_m))

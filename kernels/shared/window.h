@@ -1,7 +1,7 @@
-// Blocks of the window, by coordinates that count from its first block.
+// Finds blocks of the window by coordinates that count from its first block.
 #include "shared/block_map.h"
 
-// Wraps block coordinates of the window, already in it, to the coordinates of its offsets.
+// Wraps coordinates of blocks that lie in the window to coordinates in its offsets.
 inline vint wrap(vint block, int wrapped_origin, int blocks_per_axis) {
   const vint wrapped = block + wrapped_origin;
   return select(wrapped, wrapped - blocks_per_axis, wrapped >= blocks_per_axis);
@@ -16,7 +16,7 @@ inline vint window_address(vint x, vint y, vint z, const GridArgs grid) {
          n * (wrap(y, grid.wrapped_origin[1], n) + n * wrap(z, grid.wrapped_origin[2], n));
 }
 
-// Slots of the blocks at the addresses; -1 where there is none, or where not `inside`.
+// Returns the slots of the blocks at the addresses; -1 where there is no block, or where it is not `inside`.
 inline vint slot_at(vint address, vint inside, __global const int* offsets) {
   return select((vint)(-1), GATHER(vint, offsets, select((vint)(0), address, inside)), inside);
 }

@@ -1,9 +1,9 @@
-// Which edges carry vertices, and how many vertices and triangles come of it. A work-item is one row of a
-// block (classify_rows) or one block (scan_rows).
+// Finds which edges carry vertices, and how many vertices and triangles come of it. A work-item is one row of
+// a block (classify_rows) or one block (scan_rows).
 //   row_masks, rows  see batch.h
-//   row_triangles    triangles of a row's cells; after scan_rows the number of the row's first triangle in
-//   its block totals           vertices and triangles of a block table            the triangles of the cube
-//   cases (surface_mesh/marching_cubes_table.h)
+//   row_triangles    triangles of a row's cells; after scan_rows the number in its block of the first one
+//   totals           vertices and triangles of a block
+//   table            the triangles of the cube cases (surface_mesh/marching_cubes_table.h)
 #include "surface_mesh/batch.h"
 
 inline ulong with_next(ulong cells) { return cells | cells << 1; }

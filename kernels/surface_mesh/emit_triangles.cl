@@ -5,7 +5,8 @@
 //   triangles        three vertices of the mesh, counter-clockwise seen from free space
 #include "surface_mesh/batch.h"
 
-// The number in the mesh of the vertex on an edge that starts at a voxel of the block or of those beyond it.
+// Returns the number in the mesh of the vertex on an edge that starts at a voxel of the block or of the
+// blocks beyond it.
 inline uint vertex_number(__global const MeshBlockArgs* blocks, __global const uint4* rows, int block,
                           int3 voxel, int axis) {
   const int3 beyond = voxel >> BLOCK_SIZE_LOG2;

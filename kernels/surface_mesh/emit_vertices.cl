@@ -10,7 +10,7 @@ inline float distance_at(__global const char* voxel) {
   return *voxel == 0 ? ZERO_DISTANCE : convert_float(*voxel);
 }
 
-// Central difference, or one-sided where one neighbour is unknown.
+// Returns the central difference, or a one-sided one where one neighbour is unknown.
 inline float slope(__global const char* voxel, int stride) {
   const bool has_lower = voxel[-stride] != TSDF_CHI;
   const bool has_upper = voxel[stride] != TSDF_CHI;

@@ -23,7 +23,7 @@ typedef char8 PieceChars;
 typedef uchar8 PieceUchars;
 #endif
 
-// The highest bit of each byte, side by side.
+// Returns the highest bits of the bytes, side by side.
 inline ulong high_bits(ulong bytes) {
   return ((bytes >> 7 & 0x0101010101010101UL) * 0x0102040810204080UL) >> 56;
 }
@@ -63,8 +63,8 @@ inline int slot_of(__global const int* offsets, int3 block, GridArgs grid) {
   return address < 0 ? BLOCK_EMPTY : offsets[address];
 }
 
-// A row of the volume, out of the blocks before, in and after it. `row` is its first voxel's number in the
-// block.
+// Gathers a row of the volume out of the block and those before and after it. `row` is its first voxel's
+// number in the block.
 inline ulong2 gather_padded_row(__global char* out, __global const char* voxels, int3 slots, int row,
                                 int min_certainty) {
   const ulong2 own =

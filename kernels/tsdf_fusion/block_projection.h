@@ -1,5 +1,5 @@
-// Where the voxels of a block lie in the depth image. A pixel's coordinates times its depth, and the depth,
-// are linear in the voxel's place in the block.
+// Says where the voxels of a block lie in the depth image. A pixel's coordinates times its depth, and the
+// depth, are linear in the voxel's place in the block.
 #include "shared/block_items.h"
 #include "shared/image.h"
 
@@ -7,7 +7,7 @@
 #define PART_VOXELS (ITEM_VOXELS < 64 ? ITEM_VOXELS : 64)
 #define PART_VECTORS (PART_VOXELS / SIMD_WIDTH)
 
-// Points in frame D, one a lane.
+// Holds points in frame D, one a lane.
 typedef struct {
   vfloat x, y, z;
 } Points;
@@ -17,7 +17,7 @@ typedef struct {
   Points first_part[PART_VECTORS];  // (u z, v z, z) of the block's first voxels
 } BlockProjection;
 
-// By which (u z, v z, z) of voxels differ from those of voxel 0.
+// Returns by how much (u z, v z, z) of voxels differ from those of voxel 0.
 inline Points from_first_voxel(const BlockProjection* p, vint voxel) {
   const vfloat i = TO_VFLOAT(voxel & (BLOCK_SIZE - 1));
   const vfloat j = TO_VFLOAT(voxel >> BLOCK_SIZE_LOG2 & (BLOCK_SIZE - 1));
@@ -50,8 +50,8 @@ inline BlockProjection block_projection(int3 block, const TransformArgs T_D_W, c
   return p;
 }
 
-// Indices of the pixels that points (u z, v z, z) are seen at; 0, in the image's guard, where they are not in
-// view.
+// Returns the indices of the pixels that points (u z, v z, z) are seen at; 0, which lies in the image's
+// guard, where they are not in view.
 inline vint pixels_of(Points scaled, const CameraArgs camera) {
   const vfloat per_z = 1.0f / scaled.z;
   const vfloat u = scaled.x * per_z;

@@ -1,10 +1,9 @@
 // The rules of fusion. FUSION_RULE: FUSION_AVERAGE, FUSION_WEIGHTED or FUSION_KALMAN (see types.h).
-// fuse_measurement() is what a measurement makes of a voxel, doubt() what is left of its certainty where the
-// space is seen to be free.
+// fuse_measurement() says what a measurement makes of a voxel, doubt() what is left of its certainty where
+// the space is seen to be free.
 //   certainty  a voxel's second byte, or the exact number before it is rounded to one
-//   axial      a measurement's variance if it were as accurate as can be, in units (see types.h); the
-//   variance itself is
-//              axial / squared_accuracy
+//   axial      a measurement's variance if it were as accurate as can be, in units (see types.h);
+//              the variance itself is axial / squared_accuracy
 #include "shared/simd.h"
 #include "shared/types.h"
 #ifndef FUSION_RULE
@@ -33,7 +32,8 @@ inline vfloat doubt(vint certainty, const FusionArgs args) {
 
 #elif FUSION_RULE == FUSION_WEIGHTED
 
-// Weights below would let the bytes that hold their sums count few of many measurements.
+// Weights below this one are raised to it: of many such measurements, the bytes that hold the sums would
+// count few.
 #define MIN_WEIGHT 0.25f
 
 inline FilterStep fuse_measurement(vint certainty, vint known, vfloat axial, vfloat squared_accuracy,

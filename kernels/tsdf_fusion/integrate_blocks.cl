@@ -18,7 +18,7 @@ inline vuchar magnitude(vchar value) {
   return AS_VUCHAR(select(value, (vchar)(-value), (vchar)(value < (vchar)(0))));
 }
 
-// Which octant of its block a voxel lies in.
+// OCTANT says which octant of its block a voxel lies in.
 #define HALF_BLOCK_LOG2 (BLOCK_SIZE_LOG2 - 1)
 #define OCTANT(voxel)                                                                             \
   (((voxel) >> HALF_BLOCK_LOG2 & 1) | ((voxel) >> (BLOCK_SIZE_LOG2 + HALF_BLOCK_LOG2) & 1) << 1 | \

@@ -1,5 +1,5 @@
-// How far in front of the measured surface a point is. FUSION_DISTANCE: DISTANCE_PROJECTIVE, DISTANCE_PLANE
-// or DISTANCE_REFINED (see types.h).
+// Computes how far in front of the measured surface a point is. FUSION_DISTANCE is DISTANCE_PROJECTIVE,
+// DISTANCE_PLANE or DISTANCE_REFINED (see types.h).
 #include "shared/image.h"
 #include "shared/measurement.h"
 #include "shared/normal.h"
@@ -39,7 +39,7 @@ inline TangentPlane plane_at(vfloat u, vfloat v, Points p, __global const uint* 
   return result;
 }
 
-// Steps from the point's own pixel along the normal to the pixel where the nearest point of the surface is
+// Steps from the point's own pixel along the normals to the pixel where the nearest point of the surface is
 // seen.
 inline MeasuredDistance measured_distance(Points p, Measurement measured, float ray_length,
                                           __global const uint* measurements, __global const uint* normals,

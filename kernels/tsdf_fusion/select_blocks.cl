@@ -1,5 +1,4 @@
-// Block selection: which blocks does the measured surface meet, and which allocated blocks does the camera
-// see.
+// Block selection finds which blocks the measured surface meets, and which allocated blocks the camera sees.
 //   requests  indices of the blocks claimed, in any order
 //   points_outside  counts the samples of the surface that lie outside of the window
 //   visible   slots of the blocks to update, in any order
@@ -27,7 +26,8 @@ inline Blocks blocks_with(vfloat x, vfloat y, vfloat z, const GridArgs grid) {
   return blocks;
 }
 
-// Each block with one atomic, so that it is asked for once. A claim that finds the list full is withdrawn.
+// Claims each block with one atomic, so that it is asked for once. A claim that finds the list full is
+// withdrawn.
 inline void claim(const Blocks blocks, vint wanted, __global int* offsets, __global int4* requests,
                   __global int* count, int capacity) {
   int claims[SIMD_WIDTH], x[SIMD_WIDTH], y[SIMD_WIDTH], z[SIMD_WIDTH], address[SIMD_WIDTH];
@@ -83,11 +83,11 @@ __kernel void request_blocks(__global const float* depth, __global int* offsets,
     atomic_add(points_outside, (int)SUM_LANES(select((vfloat)(0.0f), (vfloat)(1.0f), outside)));
 }
 
-// From a voxel's pixel to those that its depth was filtered from.
+// A pixel's depth was filtered from pixels up to so far away.
 #define FILTER_REACH_PX 2.5f
 
-// The first and the last column, or row, that may have to do with points between from_m and to_m beside the
-// axis, at depths between nearest and farthest.
+// Returns the first and the last column, or row, that may have to do with points between from_m and to_m
+// beside the axis, at depths between nearest and farthest.
 inline int2 pixel_range(float from_m, float to_m, float nearest, float farthest, float f, float c, int size) {
   const float first = f * from_m / (from_m < 0.0f ? nearest : farthest) + c - FILTER_REACH_PX;
   const float last = f * to_m / (to_m < 0.0f ? farthest : nearest) + c + FILTER_REACH_PX;

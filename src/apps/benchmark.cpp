@@ -1,4 +1,5 @@
-// benchmark: how fast everything is, and the experiments behind docs/, a subcommand each, in benchmark/.
+// benchmark measures how fast everything is, and repeats the experiments behind docs/; each is a subcommand,
+// in benchmark/.
 #include "apps/benchmark/filters.h"
 #include "apps/benchmark/growth.h"
 #include "apps/benchmark/resolution.h"

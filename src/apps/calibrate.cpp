@@ -30,7 +30,7 @@ constexpr char kDescription[] =
     "  calibrate --input room.bag --output calibrated\n"
     "  reconstruct --input desk.bag --output out --params calibrated/calibration.yaml\n";
 
-// Below so many standard deviations from 0, a readout is that of a global shutter.
+// A readout that is fewer standard deviations from 0 is that of a global shutter.
 constexpr double kReadoutSigmas = 3.0;
 
 struct Options {

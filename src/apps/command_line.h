@@ -24,7 +24,7 @@ inline int runApp(const CLI::App& app, const std::function<int()>& run) {
   }
 }
 
-// Files and numbers by which the apps that fuse a recording are told how.
+// Holds the files and numbers that tell the apps how to read a recording.
 struct RecordingArguments {
   std::vector<std::string> parameter_files;
   std::string camera_file;

@@ -1,4 +1,4 @@
-// plan_resolution: which N and M to map with, from what a recording or a mesh takes.
+// plan_resolution finds which N and M to map with, from what a recording or a mesh takes.
 #include <cstdio>
 #include <filesystem>
 
@@ -92,7 +92,8 @@ std::string mapYaml(const PlanRow& row) {
   return text;
 }
 
-// The best choice after a trial of each that was the best so far: one may turn out to be too large.
+// Returns the best choice after a trial of each that was the best so far, for one may turn out to be too
+// large.
 const PlanRow& tryBest(ResolutionPlan& plan, BlockCounting& counting, bool trial) {
   PlanRow* best = recommended(plan);
   while (trial && best != nullptr && !best->tried) {

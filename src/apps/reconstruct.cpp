@@ -10,8 +10,8 @@ namespace {
 
 constexpr char kDescription[] =
     "Fuses an RGB-D recording into a surface: mesh.ply, trajectory.txt (TUM format) and report.json.\n"
-    "The recording is a folder in the TUM or 7-Scenes layout or a .bag file; which one is found out by "
-    "looking.\n"
+    "The recording is a folder in the TUM or 7-Scenes layout, a .bag file or an .oni file; which one\n"
+    "it is, is found out by looking.\n"
     "The world frame is the first camera's (x right, y down, z forward), or that of --trajectory.\n\n"
     "Examples:\n"
     "  reconstruct --input desk --output out\n"
@@ -35,7 +35,7 @@ struct Arguments {
 
 void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
   MapParameters& map = options.parameters.map;
-  app.add_option("--input", options.input, "recording to fuse: a folder or a .bag file");
+  app.add_option("--input", options.input, "recording to fuse: a folder, a .bag file or an .oni file");
   app.add_option("--output", options.output, "folder for the results; made if missing");
   app.add_option("--voxel-size", map.voxel_size_m, "edge of a voxel in metres")->capture_default_str();
   app.add_option("--blocks-per-axis", map.blocks_per_axis, "the window's size in blocks, N")

@@ -1,4 +1,4 @@
-// render: a picture of a mesh.
+// render draws a picture of a mesh.
 #include <iostream>
 
 #include "apps/command_line.h"

@@ -64,7 +64,7 @@ RgbdFrame asStored(RgbdFrame frame, double depth_unit_m) {
   return frame;
 }
 
-// A line that is overwritten on a terminal, and one in fifty frames elsewhere.
+// Prints a line that is overwritten on a terminal; elsewhere it prints one in fifty frames.
 void showProgress(size_t frame, size_t frames) {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   if (terminal || frame % 50 == 0 || frame == frames) {

@@ -12,7 +12,7 @@
 namespace depth_fusion {
 namespace {
 
-// Tiles along an axis.
+// Returns the number of tiles along an axis.
 size_t tiles(int pixels) { return (pixels + DEPTH_TILE - 1) / DEPTH_TILE; }
 
 SensorMotionArgs sensorMotion(const Vector6d& velocity, const PreprocessingParameters& parameters) {

@@ -11,8 +11,8 @@ class PreprocessingKernels {
  public:
   explicit PreprocessingKernels(ComputeContext& compute);
 
-  // input: width * height values of 16 bits (or floats) and at least 16 more; offsets: an image of what the
-  // inverse depth lacks, or an empty buffer.
+  // `input` holds width * height values of 16 bits (or floats) and at least 16 more; `offsets` is an image of
+  // what the inverse depth lacks, or an empty buffer.
   void depthToMetres(bool is_u16, const DeviceBuffer& input, const DeviceBuffer& offsets, DeviceBuffer& depth,
                      const CameraIntrinsics& camera, const RangeArgs& range);
   void compensateMotion(const DeviceBuffer& depth, DeviceBuffer& compensated, const CameraIntrinsics& camera,
@@ -22,7 +22,7 @@ class PreprocessingKernels {
   void halveDepth(const DepthLevel& level, DepthLevel& half, float cutoff_sigmas);
   void computeNormals(const DeviceBuffer& depth, DeviceBuffer& normals, const CameraIntrinsics& camera,
                       float max_relative_step);
-  // weights: an image of each pixel's weight, or an empty buffer.
+  // `weights` is an image of each pixel's weight, or an empty buffer.
   void packMeasurements(const DepthFrame& frame, const DeviceBuffer& weights, DeviceBuffer& measurements);
   void maxTiles(const DeviceBuffer& depth, DeviceBuffer& tiles, const CameraIntrinsics& camera);
 

@@ -21,9 +21,9 @@ CubeEdge edgeBetween(int a, int b) {
 
 bool isInside(int cube_case, int corner) { return (cube_case >> corner & 1) != 0; }
 
-// For each edge with a vertex the next one of its contour. Around a face, the line goes from the edge where
-// inside corners begin to the edge where they end; the next face runs along that edge the other way, where
-// they begin.
+// Finds, for each edge with a vertex, the next edge of its contour. Around a face, the line goes from the
+// edge where inside corners begin to the edge where they end; the next face runs along that edge the other
+// way, so that they begin there.
 std::array<CubeEdge, 32> contourSuccessors(int cube_case) {
   std::array<CubeEdge, 32> successors;
   successors.fill(kNone);

@@ -21,17 +21,20 @@ constexpr int kCubeCaseBytes = 16;
 inline int lowerCorner(CubeEdge edge) { return edge >> 2; }
 inline int upperCorner(CubeEdge edge) { return edge >> 2 | 1 << (edge & 3); }
 
-// Whether two edges lie on a common face.
+// Tells whether two edges lie on a common face.
 bool shareFace(CubeEdge a, CubeEdge b);
 
-// The closed lines in which the surface cuts the faces of a cell, counter-clockwise seen from outside of the
-// surface. On a face with inside corners at both ends of a diagonal, each of them is cut off by itself.
+// Returns the closed lines in which the surface cuts the faces of a cell, counter-clockwise as seen from
+// outside of the surface. On a face with inside corners at both ends of a diagonal, each of them is cut off
+// by itself.
 std::vector<CubeLoop> contourLoops(int cube_case);
 
-// The loops as triangles. No triangle has a side across a face, which a neighbouring cell might have as well.
+// Splits the loops into triangles. No triangle has a side across a face, for a neighbouring cell might have
+// the same side.
 std::vector<CubeTriangle> cubeTriangles(int cube_case);
 
-// For the kernels: kCubeCaseBytes a case, the number of triangles followed by three edges each.
+// Returns the table that the kernels read: kCubeCaseBytes a case, of which the first is the number of
+// triangles and the others are three edges each.
 std::vector<uint8_t> marchingCubesTable();
 
 }  // namespace depth_fusion

@@ -7,7 +7,7 @@ namespace {
 
 constexpr uint64_t kAxisBits[3] = {0x1249249249249249, 0x2492492492492492, 0x4924924924924924};
 
-// The number's bits, three apart.
+// Spreads the number's bits so that they stand three apart.
 uint64_t spread(uint64_t number) {
   uint64_t bits = 0;
   for (int bit = 0; bit < 21; ++bit) bits |= (number >> bit & 1) << (3 * bit);

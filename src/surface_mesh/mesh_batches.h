@@ -34,8 +34,8 @@ struct BatchLimits {
   size_t triangles = 0;
 };
 
-// Core blocks, consecutive in Morton order, followed by the halo: the other blocks to which their cells
-// reach.
+// A batch consists of core blocks, consecutive in Morton order, and after them of the halo: the other blocks
+// to which the cores' cells reach.
 struct MeshBatch {
   std::vector<MeshBlockArgs> blocks;
   size_t core_blocks = 0;
@@ -53,8 +53,8 @@ class MeshBatcher {
   MeshBatch next();
 
  private:
-  // The block and those beyond its far sides, as MeshBlockArgs numbers them; kNowhere if not in the list or
-  // not needed.
+  // Finds the block and those beyond its far sides, as MeshBlockArgs numbers them; kNowhere stands for a
+  // block that is not in the list or not needed.
   using Neighbours = std::array<size_t, 8>;
   static constexpr size_t kNowhere = static_cast<size_t>(-1);
 

@@ -5,8 +5,8 @@
 
 namespace depth_fusion {
 
-// The given triangles of vertices of the mesh, with the vertices that they use and no others, in the order of
-// their first use.
+// Returns a mesh of the given triangles, which name vertices of `mesh`, with the vertices that they use and
+// no others, in the order of their first use.
 TriangleMesh partOf(const TriangleMesh& mesh, const std::vector<MeshTriangle>& triangles);
 
 }  // namespace depth_fusion

@@ -39,7 +39,7 @@ CameraIntrinsics magnified(const CameraIntrinsics& camera, int factor) {
           camera.fy * factor,    (camera.cx + 0.5) * factor - 0.5, (camera.cy + 0.5) * factor - 0.5};
 }
 
-// Brightness of a grey surface lit from the camera.
+// Returns the brightness of a grey surface that is lit from the camera.
 float shadeOf(const Eigen::Vector3f& p_C, const Eigen::Vector3f& normal_C) {
   return kAmbient + (1.0f - kAmbient) * std::abs(normal_C.dot(p_C.normalized()));
 }
@@ -64,7 +64,8 @@ std::vector<Corner> projectVertices(const TriangleMesh& mesh, const CameraIntrin
   return corners;
 }
 
-// Twice the area of the triangle a, b, (u, v); positive if clockwise in the picture, where v points down.
+// Returns twice the area of the triangle a, b, (u, v). It is positive for a triangle that is clockwise in the
+// picture, where v points down.
 float area(const Corner& a, const Corner& b, float u, float v) {
   return (b.u - a.u) * (v - a.v) - (b.v - a.v) * (u - a.u);
 }

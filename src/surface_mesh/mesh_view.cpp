@@ -18,7 +18,7 @@ Eigen::Matrix3d turnedAbout(const Eigen::Vector3d& axis, double degrees) {
   return Eigen::AngleAxisd(degrees * kPi / 180.0, axis).toRotationMatrix();
 }
 
-// Orientation of the camera in the frame of the mesh.
+// Returns the camera's orientation in the frame of the mesh.
 const std::map<std::string, Eigen::Matrix3d>& orientations() {
   static const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   static const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
@@ -29,9 +29,9 @@ const std::map<std::string, Eigen::Matrix3d>& orientations() {
   return of_view;
 }
 
-// One direction of the picture, across or down, whose borders are at the slopes `low` and `high`. The points
-// lie between the borders of a camera at (sideways, depth) if sideways - low * depth <= low_limit and
-// sideways - high * depth >= high_limit.
+// Describes one direction of the picture, across or down, whose borders are at the slopes `low` and `high`.
+// The points lie between the borders of a camera at (sideways, depth) if sideways - low * depth <= low_limit
+// and sideways - high * depth >= high_limit.
 struct Borders {
   double low, high;
   double low_limit, high_limit;

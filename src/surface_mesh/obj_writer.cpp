@@ -7,10 +7,10 @@ namespace {
 
 constexpr std::streamoff kFlushBytes = std::streamoff{1} << 20;
 
-// Nine digits are a float's; the width holds sign, point, exponent and a blank, too.
+// A float has nine digits; the width also holds sign, point, exponent and a blank.
 constexpr int kFloatDigits = 9;
 constexpr int kFloatWidth = 16;
-// Colours and normals: decimals, and the width of numbers from -1 to 1 with a blank.
+// Colours and normals lie between -1 and 1: they have so many decimals, and the width holds a blank, too.
 constexpr int kDecimals = 5;
 constexpr int kDecimalsWidth = 9;
 

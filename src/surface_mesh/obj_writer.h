@@ -22,7 +22,7 @@ class ObjWriter final : public MeshSink {
   void finish() override { file_.commit(); }
 
  private:
-  // Writes the lines gathered in text_.
+  // Writes the lines that text_ has gathered.
   void flush(uint64_t& offset);
 
   WholeFile file_;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kPurpose = "the surface mesh";
 constexpr size_t kVolumeScratchBytes = size_t{16} << 20;
-// More than the largest block can need: 3 * 32^3 vertices, 5 * 32^3 triangles.
+// The bound is more than the largest block can need, 3 * 32^3 vertices and 5 * 32^3 triangles.
 constexpr size_t kBatchVertices = size_t{1} << 18;
 constexpr size_t kBatchTriangles = size_t{1} << 19;
 constexpr size_t kRowMaskBytes = 16;

@@ -19,7 +19,7 @@ class SurfaceMeshKernels {
   const BatchLimits& limits() const { return limits_; }
   size_t deviceBytes() const;
 
-  // Gathers and classifies the blocks of a batch; of a count: those that stand in blockArgs().
+  // Gathers and classifies the blocks of a batch; given a count, the first blocks of blockArgs().
   void classify(const std::vector<MeshBlockArgs>& blocks);
   void classify(size_t count);
   DeviceBuffer& blockArgs() { return block_args_; }

@@ -21,7 +21,7 @@ bool isDevice(const std::string& path) {
   return stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-// What a link points to, so that the file is replaced and not the link.
+// Follows a link to its end, so that the file is replaced and not the link.
 std::string withoutLinks(const std::string& path) {
   std::error_code error;
   const std::filesystem::path target = std::filesystem::canonical(path, error);

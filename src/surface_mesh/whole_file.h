@@ -7,8 +7,8 @@
 
 namespace depth_fusion {
 
-// Writes PATH.part and renames it at the end; without commit() nothing is left of it, and what stood at the
-// path stays. Devices are written to directly. Errors name the path and the reason.
+// Writes PATH.part, which commit() renames to PATH. Without commit() nothing is left of it, and what stood at
+// the path stays. Devices are written to directly. Errors name the path and the reason.
 class WholeFile {
  public:
   // Throws Error if the file cannot be created.
@@ -18,8 +18,8 @@ class WholeFile {
   WholeFile& operator=(const WholeFile&) = delete;
 
   void writeAt(uint64_t offset, const void* data, size_t bytes);
-  // The file's first bytes, which must have been written, in memory; later writes show there, too. Valid
-  // until the next call or commit().
+  // Maps the file's first bytes, which must have been written, into memory, where later writes show, too. The
+  // pointer is valid until the next call or commit().
   const unsigned char* view(size_t bytes);
   void cutTo(uint64_t bytes);
   void commit();

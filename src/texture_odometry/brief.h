@@ -5,12 +5,12 @@
 
 namespace depth_fusion {
 
-// Pixels about a feature that its descriptor reads.
+// A descriptor reads so many pixels to each side of its feature.
 constexpr int kBriefRadius_px = 15;
 
 BriefDescriptor describe(const cv::Mat& smoothed, cv::Point pixel);
 
-// The number of comparisons that differ.
+// Counts the comparisons that differ.
 int hammingDistance(const BriefDescriptor& a, const BriefDescriptor& b);
 
 }  // namespace depth_fusion

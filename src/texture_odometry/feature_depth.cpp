@@ -19,7 +19,7 @@ constexpr double kMaxResidual_sigmas = 4.0;
 constexpr int kSearchSteps = 8;
 constexpr double kSearchTolerance_px = 0.3;
 
-// 0 without depth.
+// Returns 0 where there is no depth.
 double meanDepth_m(const RgbdFrame& frame) {
   constexpr double kInfinite = 1e9;
   return frame.depth_unit_m * cv::mean(frame.depth, (frame.depth > 0.0) & (frame.depth < kInfinite))[0];
@@ -56,8 +56,8 @@ class SurfaceFinder {
     return std::isfinite(units) ? units * frame_.depth_unit_m : 0.0;
   }
 
-  // Where the depth camera sees what the colour camera sees along the ray: a fixed point, for the place in
-  // the depth image depends on the depth itself.
+  // The depth camera sees elsewhere what the colour camera sees along the ray. That place is a fixed point,
+  // for it depends on the depth itself.
   std::optional<Vector2d> depthPixel(const Vector3d& ray_C, double start_m) const {
     Vector2d pixel = project(frame_.intrinsics, T_D_C_ * (start_m * ray_C));
     for (int step = 0; step < kSearchSteps; ++step) {
@@ -72,7 +72,8 @@ class SurfaceFinder {
     return std::nullopt;
   }
 
-  // Least squares over inverse depths, which are linear in the pixel on a plane; nothing at a depth edge.
+  // The fit is one of least squares over inverse depths, which are linear in the pixel on a plane. There is
+  // none at a depth edge.
   std::optional<Vector3d> fitPlane(const Vector2d& pixel) const {
     const int centre_u = static_cast<int>(std::lround(pixel.x()));
     const int centre_v = static_cast<int>(std::lround(pixel.y()));

@@ -6,7 +6,7 @@
 
 namespace depth_fusion {
 
-// A pixel of a pyramid level in pixels of the full image.
+// Converts a pixel of a pyramid level to pixels of the full image.
 template <class Point>
 Eigen::Vector2d fullImagePixel(const Point& pixel, int level) {
   const double scale = 1 << level;

@@ -10,8 +10,8 @@ struct FeatureMatch {
   int current = 0;
 };
 
-// Each other's nearest descriptor among the features of the same level within search_radius_px (of the full
-// image).
+// Pairs features that are each other's nearest by descriptor, among those of the same level within
+// search_radius_px (pixels of the full image).
 std::vector<FeatureMatch> matchFeatures(const std::vector<Feature>& reference,
                                         const std::vector<Feature>& current, double search_radius_px,
                                         int max_descriptor_distance);

@@ -52,7 +52,7 @@ Pose alignPoints(const std::vector<Correspondence>& correspondences, const std::
   return Pose(Eigen::umeyama(current, reference, false));
 }
 
-// How many samples it takes to have one without outliers.
+// Returns how many samples it takes to have one without outliers.
 int neededIterations(size_t inliers, size_t count) {
   const double good = std::pow(static_cast<double>(inliers) / static_cast<double>(count), kSampleSize);
   if (good >= 1.0) return 1;
@@ -65,8 +65,8 @@ double medianOf(std::vector<double>& values) {
   return *middle;
 }
 
-// Robust standard deviations of the inliers' residuals: the squared norm of two normal values has the
-// median 1.386.
+// Estimates the standard deviations of the inliers' residuals robustly: the squared norm of two normal values
+// has the median 1.386.
 NoiseScale noiseOf(const MotionModel& model, const std::vector<size_t>& inliers,
                    const Pose& T_reference_current) {
   std::vector<double> pixels, depth;

@@ -9,7 +9,7 @@
 
 namespace depth_fusion {
 
-// What one colour camera sees of a point.
+// Holds what one colour camera sees of a point.
 struct Sighting {
   Eigen::Vector2d pixel;
   std::optional<Eigen::Vector3d> point;  // in the camera's frame, where there is depth
@@ -38,13 +38,14 @@ struct MotionEstimate {
   std::vector<size_t> inliers;             // indices of correspondences
 };
 
-// The motion that most correspondences agree on; nothing if no three of them give one. Repeatable.
+// Finds the motion that most correspondences agree on; returns nothing if no three of them give one. The same
+// input gives the same result.
 std::optional<MotionEstimate> estimateByRansac(const std::vector<Correspondence>& correspondences,
                                                const MotionCameras& cameras, const InlierGate& gate,
                                                int max_iterations);
 
-// Gauss-Newton with a robust loss over the correspondences within the gate, from `start`; the covariance
-// comes from their residuals. Nothing if they do not determine the motion.
+// Refines `start` by Gauss-Newton with a robust loss over the correspondences within the gate; the covariance
+// comes from their residuals. Returns nothing if they do not determine the motion.
 std::optional<MotionEstimate> refineMotion(const std::vector<Correspondence>& correspondences,
                                            const MotionCameras& cameras, const InlierGate& gate,
                                            const Pose& start);

@@ -69,7 +69,7 @@ void MotionModel::accumulate(size_t index, const Pose& T_reference_current, cons
   const MotionResiduals residual = residuals(index, T_reference_current);
   if (residual.behind_camera) return;
   const double pixel_scale = 1.0 / (pair.sigma_px * noise.pixels);
-  // Both ways, the same two pixels' noise is counted twice.
+  // A correspondence that is used both ways counts the noise of the same two pixels twice.
   const double pixel_weight = residual.in_reference && residual.in_current ? 0.5 : 1.0;
   PointJacobian point_jacobian;
   if (residual.in_reference) {

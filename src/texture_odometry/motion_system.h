@@ -5,7 +5,8 @@
 
 namespace depth_fusion {
 
-// Residuals of a correspondence in their standard deviations; none where the depth is missing.
+// A correspondence has up to two residuals, in units of their standard deviations; one is missing where the
+// depth is.
 struct MotionResiduals {
   std::optional<Eigen::Vector2d> in_reference;  // of the current point
   std::optional<Eigen::Vector2d> in_current;    // of the reference's point
@@ -15,7 +16,7 @@ struct MotionResiduals {
   bool within(const InlierGate& gate) const;
 };
 
-// How the true noise compares with the assumed one.
+// Says how the true noise compares with the assumed one.
 struct NoiseScale {
   double pixels = 1.0;
   double depth = 1.0;
@@ -43,7 +44,8 @@ class MotionModel {
   const MotionCameras& cameras_;
 };
 
-// A few Gauss-Newton steps over the indexed correspondences; nothing if the motion is not determined.
+// Takes a few Gauss-Newton steps over the indexed correspondences. Returns nothing if they do not determine
+// the motion.
 std::optional<Pose> solveMotion(const MotionModel& model, const std::vector<size_t>& indices,
                                 const NoiseScale& noise, const Pose& start, int max_iterations);
 

@@ -41,7 +41,7 @@ bool insideImage(const cv::Mat& image, const Vector2d& centre) {
          centre.y() < image.rows - 1 - margin;
 }
 
-// Bilinear, without the mean.
+// Samples the patch bilinearly and subtracts its mean.
 Values sample(const cv::Mat& image, const Vector2d& centre) {
   const int left = static_cast<int>(centre.x()) - kPatchRadius_px;
   const int top = static_cast<int>(centre.y()) - kPatchRadius_px;

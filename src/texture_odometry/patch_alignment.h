@@ -5,8 +5,8 @@
 
 namespace depth_fusion {
 
-// Inverse compositional Lucas-Kanade over translations, blind to brightness offsets, from `start`. Nothing if
-// it diverges or the patch looks different there.
+// Aligns the patch from `start` by inverse compositional Lucas-Kanade over translations, which is blind to
+// brightness offsets. Returns nothing if it diverges or the patch looks different there.
 std::optional<Eigen::Vector2d> alignPatch(const FeaturePatch& patch, const cv::Mat& smoothed,
                                           const Eigen::Vector2d& start);
 

@@ -16,10 +16,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A corner is found to about a pixel of its level, its patch aligned to a fraction of one.
+// A corner is found to about a pixel of its level; its patch is aligned to a fraction of one.
 constexpr double kCornerSigma_px = 1.0;
 
-// What the frame's camera sees of the feature at the pixel of the full image.
+// Returns what the frame's camera sees of the feature at the given pixel of the full image.
 Sighting sightingOf(const Feature& feature, const FrameFeatures& frame, const Vector2d& pixel) {
   Sighting sighting{pixel, std::nullopt, 0.0};
   if (!feature.surface_C) return sighting;
@@ -31,7 +31,7 @@ Sighting sightingOf(const Feature& feature, const FrameFeatures& frame, const Ve
   return sighting;
 }
 
-// The pairs with depth in one of the frames at least, at the corners' pixels.
+// Returns the pairs with depth in at least one of the frames, at the corners' pixels.
 std::vector<Correspondence> correspondencesOf(const FrameFeatures& reference, const FrameFeatures& current,
                                               std::vector<FeatureMatch>& matches) {
   std::vector<Correspondence> result;
@@ -52,7 +52,8 @@ std::vector<Correspondence> correspondencesOf(const FrameFeatures& reference, co
   return result;
 }
 
-// The indexed pairs with the current pixel where the reference's patch fits; without those that fit nowhere.
+// Moves the current pixel of each indexed pair to where the reference's patch fits, and drops the pairs that
+// fit nowhere.
 std::vector<Correspondence> alignPatches(const FrameFeatures& reference, const FrameFeatures& current,
                                          const std::vector<FeatureMatch>& matches,
                                          const std::vector<Correspondence>& pairs,

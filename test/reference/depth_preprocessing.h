@@ -12,7 +12,7 @@
 
 namespace depth_fusion::reference {
 
-// Of the default sensor.
+// Returns the axial sigma of the default sensor.
 inline double sensorSigma(double depth_m) { return 0.0012 + 0.0019 * (depth_m - 0.4) * (depth_m - 0.4); }
 
 // Calls visit(x, y, pixel) for every pixel of the image.
@@ -83,8 +83,8 @@ inline cv::Mat halveDepth(const cv::Mat& depth, double cutoff_sigmas) {
   return half;
 }
 
-// The plane z = a + b du + c dv fitted to the 3x3 pixels two apart; as a surface, its normal is
-// (fx b, fy c, -(z + u b + v c)) with (u, v) from the principal point.
+// The plane z = a + b du + c dv is fitted to the 3x3 pixels two apart. As a surface, it has the normal
+// (fx b, fy c, -(z + u b + v c)), with (u, v) from the principal point.
 inline cv::Mat computeNormals(const cv::Mat& depth, const CameraIntrinsics& camera,
                               double max_relative_step) {
   cv::Mat normals = cv::Mat::zeros(depth.size(), CV_32FC3);
@@ -106,7 +106,8 @@ inline cv::Mat computeNormals(const cv::Mat& depth, const CameraIntrinsics& came
   return normals;
 }
 
-// Depth, cosine of the incidence and accuracy of each pixel, by the default sensor; 0 = no measurement.
+// Returns depth, cosine of the incidence and accuracy of each pixel, by the default sensor; 0 = no
+// measurement.
 inline cv::Mat measurements(const cv::Mat& depth, const cv::Mat& normals, const cv::Mat& weights,
                             const CameraIntrinsics& camera) {
   const double lateral_px = 0.8;

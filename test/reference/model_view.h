@@ -13,7 +13,8 @@ class RayCaster {
  public:
   explicit RayCaster(BlockMap& map) : map_(map.parameters()), content_(readMap(map)) {}
 
-  // Depth of the first place where the ray (z = 1) goes from free space through the surface; 0 = none.
+  // Returns the depth of the first place where the ray (z = 1) goes from free space through the surface; 0 =
+  // none.
   double cast(const Pose& T_W_D, const Eigen::Vector3d& ray_D, double min_range_m, double max_range_m) const {
     const double step_m = 0.25 * map_.voxel_size_m / ray_D.norm();
     double previous = std::nan("");
@@ -26,7 +27,7 @@ class RayCaster {
   }
 
  private:
-  // Trilinear, in steps of the distance byte; NaN where a voxel is not known.
+  // Interpolates the distance trilinearly, in steps of the distance byte; NaN where a voxel is not known.
   double interpolated(const Eigen::Vector3d& p_W) const {
     const Eigen::Vector3d p = p_W / map_.voxel_size_m;
     const Eigen::Vector3i low = p.array().floor().cast<int>();

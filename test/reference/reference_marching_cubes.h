@@ -12,7 +12,8 @@
 
 namespace depth_fusion {
 
-// Distance bytes of voxels first_voxel + [0, size)^3, -128 = unknown, as everywhere outside.
+// Holds distance bytes of voxels first_voxel + [0, size)^3; -128 stands for unknown, as it is everywhere
+// outside.
 struct DenseGrid {
   Eigen::Vector3i first_voxel = Eigen::Vector3i::Zero();
   int size = 0;

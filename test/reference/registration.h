@@ -9,7 +9,7 @@
 
 namespace depth_fusion::reference {
 
-// Where the lens takes the ray (x, y, 1): OpenCV's model, written down from its documentation.
+// Computes where the lens takes the ray (x, y, 1), by OpenCV's model, written down from its documentation.
 inline Eigen::Vector2d distorted(const Eigen::Vector2d& ray, LensDistortion k) {
   k.resize(8, 0.0);
   const double x = ray.x(), y = ray.y(), r2 = ray.squaredNorm();
@@ -25,8 +25,8 @@ class DepthCamera {
               double max_relative_step)
       : depth_m_(depth_m), camera_(camera), lens_(lens), max_relative_step_(max_relative_step) {}
 
-  // The depth along the ray (x, y, 1), between the pixels that see the same surface as the nearest one; 0 =
-  // none.
+  // Returns the depth along the ray (x, y, 1), interpolated between the pixels that see the same surface as
+  // the nearest one; 0 = none.
   double along(const Eigen::Vector2d& ray) const {
     const Eigen::Vector2d bent = distorted(ray, lens_);
     const double u = camera_.fx * bent.x() + camera_.cx, v = camera_.fy * bent.y() + camera_.cy;
@@ -72,8 +72,8 @@ inline cv::Mat rectifiedDepth(const DepthCamera& depth, const CameraIntrinsics& 
   return result;
 }
 
-// The least depth among the points of `rectified` that fall within `radius` pixels of each pixel of the other
-// camera.
+// Returns, for each pixel of the other camera, the least depth among the points of `rectified` that fall
+// within `radius` pixels of it.
 inline cv::Mat nearestDepth(const cv::Mat& rectified, const CameraIntrinsics& camera,
                             const CameraIntrinsics& other, const Pose& T_C_D, int radius) {
   cv::Mat nearest(other.height, other.width, CV_64FC1, cv::Scalar(1e9));

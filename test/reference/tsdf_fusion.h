@@ -29,8 +29,8 @@ struct View {
   }
 };
 
-// Blocks within `margin` blocks of a sample in the truncation bands. A negative margin leaves out the blocks
-// that the samples only just meet.
+// Returns the blocks within `margin` blocks of a sample in the truncation bands. A negative margin leaves out
+// the blocks that the samples only just meet.
 inline std::set<BlockKey> blocksInBands(const View& view, const MapParameters& map, const SelectionArgs& args,
                                         double margin) {
   std::set<BlockKey> blocks;
@@ -59,14 +59,15 @@ inline std::set<BlockKey> blocksInBands(const View& view, const MapParameters& m
   return blocks;
 }
 
-// A voxel's state: the distance in steps of the distance byte, and the certainty, neither rounded.
+// Holds a voxel's state: the distance in steps of the distance byte, and the certainty, neither of them
+// rounded.
 struct Voxel {
   bool known = false;
   double steps = 0.0;
   double certainty = 0.0;
 };
 
-// What a frame says of a voxel.
+// Holds what a frame says of a voxel.
 struct Measurement {
   enum { kNone, kHit, kFree } kind = kNone;
   double steps = 0.0;
@@ -112,7 +113,8 @@ inline Distance distanceTo(const View& view, const cv::Vec3f& measured, const Ei
   return result;
 }
 
-// The measurement of a voxel of a block. All rays through a block are as long as the one through its middle.
+// Returns the measurement of a voxel of a block. All rays through a block count as long as the one through
+// its middle.
 inline Measurement measure(const View& view, const Pose& T_D_W, const MapParameters& map,
                            const TsdfFusionParameters& fusion, const BlockIndex& block,
                            const Eigen::Vector3i& voxel) {
@@ -146,7 +148,7 @@ inline Measurement measure(const View& view, const Pose& T_D_W, const MapParamet
   return result;
 }
 
-// The code of a variance: a scale of the bits of floats.
+// Returns the code of a variance, on a scale of the bits of floats.
 inline double certaintyOf(double variance_m2) {
   const float value = static_cast<float>(variance_m2);
   int bits = 0;
@@ -165,7 +167,7 @@ struct FilterStep {
   double gain, certainty;
 };
 
-// Algorithms 1, 2 and 3 of the paper.
+// Returns the step of Algorithm 1, 2 or 3 of the paper.
 inline FilterStep filterStep(const Voxel& old, double variance_m2, const TsdfFusionParameters& fusion) {
   const double quality = std::pow(sensorSigma(1.0), 2) / variance_m2;
   if (fusion.rule == "average") {
@@ -200,7 +202,7 @@ inline Voxel fuse(const Voxel& old, const Measurement& measured, const TsdfFusio
   return result;
 }
 
-// What becomes of a voxel that is stored in bytes by rounding to the nearest.
+// Returns what becomes of a voxel that is stored in bytes by rounding to the nearest.
 inline Voxel roundedToNearest(Voxel voxel) {
   voxel.steps = std::floor(voxel.steps + 0.5);
   voxel.certainty = std::floor(voxel.certainty + 0.5);

@@ -36,7 +36,7 @@ inline sensor_msgs::CompressedImage compressedMessage(const cv::Mat& pixels, con
   return message;
 }
 
-// As compressed_depth_image_transport: a header of an enum and two floats, then a PNG.
+// Compresses as compressed_depth_image_transport does: a header of an enum and two floats, then a PNG.
 inline sensor_msgs::CompressedImage compressedDepthMessage(const cv::Mat& values, const std::string& format,
                                                            float quant_a = 0.0f, float quant_b = 0.0f) {
   sensor_msgs::CompressedImage message = compressedMessage(values, ".png", format);
@@ -56,7 +56,7 @@ inline sensor_msgs::CameraInfo infoMessage(int width, int height, double focal_p
   return info;
 }
 
-// Written as received delay_s after its stamp.
+// Writes the message as received delay_s after its stamp.
 template <class Message>
 void addToBag(rosbag::Bag& bag, const std::string& topic, double stamp_s, Message message,
               double delay_s = 0.0) {

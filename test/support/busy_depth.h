@@ -21,7 +21,7 @@ inline RgbdFrame frameOf(const cv::Mat& depth, double unit_m = 1.0) {
   return frame;
 }
 
-// Noisy surfaces at two depths with holes, out-of-range pixels among them.
+// Makes noisy surfaces at two depths, with holes and out-of-range pixels.
 inline cv::Mat busyDepth(const CameraIntrinsics& camera) {
   cv::Mat depth(camera.height, camera.width, CV_32FC1);
   cv::RNG random(3);
@@ -33,7 +33,7 @@ inline cv::Mat busyDepth(const CameraIntrinsics& camera) {
   return depth;
 }
 
-// Elements of the image's buffer that are not 0, beside its pixels.
+// Counts the elements of the image's buffer beside its pixels that are not 0.
 inline long nonzeroPadding(const DeviceBuffer& image, const CameraIntrinsics& camera) {
   const std::vector<uint32_t> elements = image.read<uint32_t>(imageElements(camera));
   const long nonzero = elements.size() - std::count(elements.begin(), elements.end(), 0u);

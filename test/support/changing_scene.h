@@ -17,7 +17,7 @@ namespace depth_fusion {
 
 using Solids = std::vector<Primitive>;
 
-// A floor and a wall, 1.9 m away.
+// Makes a floor and a wall, 1.9 m away.
 inline Solids corner() { return {plane({0, 0, 0}, {0, 0, 1}, {}), plane({0, 1.9, 0}, {0, -1, 0}, {})}; }
 
 inline Solids tableWithThings() {
@@ -30,7 +30,7 @@ inline Solids tableWithThings() {
   return solids;
 }
 
-// Sways about the point at 1.2 m height, looking at the table's place.
+// The camera sways about a point at 1.2 m height and looks at the table's place.
 inline Pose swayingPose(int frame) {
   const GazePath path = [](const Sway& walk, const Sway&) {
     return Gaze{{0.35 * walk(0, 3.0), 0.1 * walk(1, 4.0), 1.2 + 0.12 * walk(2, 2.5)},
@@ -76,8 +76,8 @@ class SceneFusion {
     return mesh;
   }
 
-  // Sizes, in vertices, of the connected parts of what is farther than margin_m from the surface that is
-  // left, and was in view for the last 30 frames.
+  // Returns the sizes, in vertices, of the connected parts of what is farther than margin_m from the surface
+  // that is left, and was in view for the last 30 frames.
   std::vector<size_t> ghosts(const Solids& left, double margin_m) {
     const TriangleMesh fused = mesh();
     const Scene surface(left);
@@ -100,7 +100,7 @@ class SceneFusion {
     return true;
   }
 
-  // Of the parts of the mesh that the chosen vertices make, the largest first.
+  // Returns the sizes of the parts of the mesh that the chosen vertices make, the largest first.
   static std::vector<size_t> sizesOfParts(const TriangleMesh& mesh, const std::vector<bool>& chosen) {
     std::vector<size_t> root(mesh.vertices.size());
     std::iota(root.begin(), root.end(), 0);

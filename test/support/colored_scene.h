@@ -18,7 +18,7 @@ inline Material paint(const Eigen::Vector3d& color_bgr, double scale_m) {
   return {color_bgr, Pattern::kSpeckles, scale_m, 0.3, false};
 }
 
-// A wall, and a box before it whose colour is another; neither depends on where the camera is.
+// Makes a wall, and a box before it of another colour; neither depends on where the camera is.
 inline const Scene& coloredScene() {
   static const Scene scene(
       {plane({0.0, 0.0, 1.6}, {0.0, 0.0, -1.0}, paint({150.0, 110.0, 70.0}, 0.2)),
@@ -26,13 +26,13 @@ inline const Scene& coloredScene() {
   return scene;
 }
 
-// A camera at the origin that sways a little and looks along z.
+// The camera stands at the origin, sways a little and looks along z.
 inline Pose swayingPose(int frame) {
   return motionOf({3.0 * std::sin(0.9 * frame), 5.0 * std::sin(0.7 * frame), 4.0 * std::sin(0.5 * frame)},
                   {0.12 * std::sin(0.8 * frame), 0.1 * std::sin(1.1 * frame), 0.05 * std::sin(0.6 * frame)});
 }
 
-// Exact depth and colour from a pose, the colour through a camera of its own if it is given.
+// Renders exact depth and colour from a pose, the colour through a camera of its own if it is given.
 inline RgbdFrame exactFrame(const Scene& scene, const Pose& T_W_D) {
   const RenderedView view = render(scene, kColorTestCamera, T_W_D);
   RgbdFrame frame;
@@ -51,7 +51,7 @@ inline PipelineParameters colorParameters() {
   return parameters;
 }
 
-// What becomes of frames seen from given poses. `change` may spoil the frame of a number before it is fused.
+// May spoil the frame of a number before fuseFrames() fuses it; the frames are seen from given poses.
 using FrameChange = std::function<void(int, RgbdFrame&)>;
 
 inline TriangleMesh fuseFrames(const PipelineParameters& parameters, int frames,
@@ -74,7 +74,7 @@ inline cv::Mat scaledColor(const cv::Mat& color, const cv::Scalar& gains) {
   return result;
 }
 
-// How far the vertices' colours are from the scene's, channel by channel, in steps of 255.
+// Holds how far the vertices' colours are from the scene's, channel by channel, in steps of 255.
 struct ColorErrors {
   std::vector<double> all;          // away from where the box meets the wall
   std::vector<double> left, right;  // of those, by the sign of x

@@ -9,7 +9,7 @@ namespace depth_fusion {
 
 constexpr float kDepthStep_m = 2e-5f;
 
-// The measurements as bytes hold them: packed and unpacked.
+// Packs the measurements and unpacks them, so that they are as the device holds them.
 inline cv::Mat quantised(cv::Mat measurements) {
   reference::forEachPixel<cv::Vec3f>(measurements, [](int, int, cv::Vec3f& pixel) {
     pixel = reference::unpackedMeasurement(reference::packedMeasurement(pixel, kDepthStep_m), kDepthStep_m);
@@ -17,8 +17,8 @@ inline cv::Mat quantised(cv::Mat measurements) {
   return measurements;
 }
 
-// A frame of one level, its depth (CV_32FC1, metres) raw and filtered alike. normals: CV_32FC3; measurements:
-// CV_32FC3 as reference::measurements() has them.
+// Makes a frame of one level, whose raw and filtered depth (CV_32FC1, metres) are the same. `normals` are
+// CV_32FC3, `measurements` CV_32FC3 as reference::measurements() has them.
 inline DepthFrame frameOfDepth(ComputeContext& compute, const CameraIntrinsics& camera, const cv::Mat& depth,
                                const cv::Mat& normals, const cv::Mat& measurements) {
   DepthFrame frame;

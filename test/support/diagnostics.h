@@ -14,10 +14,10 @@ class Diagnostics {
  public:
   using Status = diagnostic_msgs::DiagnosticStatus;
 
-  // Of the nodelets in the handle's namespace.
+  // Listens to the nodelets in the handle's namespace.
   explicit Diagnostics(ros::NodeHandle& handle) : handle_(handle), arrays_(handle, "/diagnostics") {}
 
-  // What the nodelet says first, from now on, that fits; its level is -1 if it never does.
+  // Waits for the first status from now on that fits, and returns it; its level is -1 if none comes.
   Status await(const std::string& nodelet, const std::function<bool(const Status&)>& fits,
                double patience_s = kPatience_s) const {
     const std::string name = handle_.resolveName(nodelet).substr(1);
@@ -53,7 +53,7 @@ class Diagnostics {
   Listener<diagnostic_msgs::DiagnosticArray> arrays_;
 };
 
-// The value of a key; empty if the nodelet does not give it.
+// Returns the value of a key; it is empty if the nodelet does not give it.
 inline std::string valueOf(const Diagnostics::Status& status, const std::string& key) {
   for (const diagnostic_msgs::KeyValue& value : status.values) {
     if (value.key == key) return value.value;
@@ -61,7 +61,7 @@ inline std::string valueOf(const Diagnostics::Status& status, const std::string&
   return "";
 }
 
-// Frames dropped, for whatever reason.
+// Counts the frames that were dropped, for whatever reason.
 inline uint64_t framesDropped(const Diagnostics::Status& status) {
   uint64_t sum = 0;
   for (const diagnostic_msgs::KeyValue& value : status.values) {

@@ -13,7 +13,7 @@ inline cv::Matx33d cameraMatrix(const CameraIntrinsics& camera) {
   return {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
 }
 
-// The rendered view through the lens, from one rendered at twice the resolution and a quarter more of the
+// Returns the rendered view through the lens, made from one at twice the resolution and a quarter more of the
 // angle.
 inline RenderedView distortedView(const Scene& scene, const CameraIntrinsics& camera,
                                   const LensDistortion& lens, const Pose& T_W_C) {

@@ -11,7 +11,7 @@
 namespace depth_fusion {
 
 struct SensorFaults {
-  // What the inverse depth lacks (1/m) at (x, y), 0 to 1 over the image.
+  // Says what the inverse depth lacks (1/m) at (x, y), which go from 0 to 1 over the image.
   std::function<double(double x, double y)> offset_per_m = [](double, double) { return 0.0; };
   double readout_s = 0.0;  // of the rolling shutter; the last row is exposed at the stamp
 };
@@ -21,7 +21,7 @@ class FaultySensor {
   FaultySensor(const CameraIntrinsics& camera, const SensorFaults& faults)
       : scene_(makeScene("room")), camera_(camera), faults_(faults) {}
 
-  // Half a metre to and fro, left and right, up and down.
+  // The sensor moves half a metre to and fro, left and right, up and down.
   Pose poseAt(double time_s) const {
     const GazePath path = [](const Sway& walk, const Sway& look) {
       Gaze gaze;
@@ -32,7 +32,7 @@ class FaultySensor {
     return handHeldPose(path, 1, {}, time_s);
   }
 
-  // Of D in D, per second.
+  // Returns the velocity of D in its own frame: rotation (rad/s), translation (m/s).
   Vector6d velocityAt(double time_s) const {
     constexpr double kStep_s = 0.005;
     return twistFromPose(poseAt(time_s - kStep_s).inverse() * poseAt(time_s + kStep_s)) / (2.0 * kStep_s);

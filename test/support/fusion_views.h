@@ -28,7 +28,7 @@ inline cv::Mat wallDepth(double z_m) {
   return cv::Mat(kCamera.height, kCamera.width, CV_32FC1, cv::Scalar(z_m));
 }
 
-// A bumpy wall with a hole and a box in front of it.
+// Makes a bumpy wall with a hole, and a box in front of it.
 inline cv::Mat bumpyDepth(double z_m) {
   cv::Mat depth = wallDepth(z_m);
   reference::forEachPixel<float>(depth, [&](int x, int y, float& pixel) {

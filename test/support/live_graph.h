@@ -1,4 +1,5 @@
-// The nodelets that track and map, with a camera before them: what a test sends, and what they say of it.
+// The nodelets that track and map, with a camera before them: a test sends frames and hears what they say of
+// them.
 #pragma once
 
 #include <depth_fusion/SetMode.h>
@@ -18,7 +19,8 @@ inline Pose poseOf(const geometry_msgs::Pose& message) {
   return fromMessage(transform);
 }
 
-// Distance in metres, and angle in radians, between where the sensor is thought to be and where it is.
+// Expects that the sensor is where it is thought to be, to within a distance in metres and an angle in
+// radians.
 inline void expectPose(const Pose& found, const Pose& expected, double metres = 0.01,
                        double radians = 0.0087) {
   const Pose error = expected.inverse() * found;
@@ -40,13 +42,13 @@ class LiveGraph : public testing::Test {
     awaitTracking();
   }
 
-  // All that frames pass are connected.
+  // Waits until all that frames pass is connected.
   void awaitTracking() {
     ASSERT_TRUE(camera_.awaitSubscribers());
     ASSERT_TRUE(map_status_.connected() && tracker_status_.connected());
   }
 
-  // Publishes the frame; what became of it, once it is known.
+  // Publishes the frame, and returns what became of it, once it is known.
   MapStatus::ConstPtr fuse(const RgbdFrame& frame) {
     camera_.publish(frame);
     return map_status_.awaitStamp(camera_.headerOf(frame).stamp);

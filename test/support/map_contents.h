@@ -15,7 +15,7 @@ using BlockKey = std::array<int, 3>;  // z, y, x
 inline BlockKey keyOf(const BlockIndex& block) { return {block.z(), block.y(), block.x()}; }
 inline BlockIndex indexOf(const BlockKey& key) { return {key[2], key[1], key[0]}; }
 
-// Distances and certainties of the M^3 voxels of a block.
+// Holds the distances and certainties of the M^3 voxels of a block.
 struct BlockContent {
   std::vector<int8_t> distances;
   std::vector<uint8_t> certainties;

@@ -35,7 +35,7 @@ inline std::vector<Triangle> trianglesOf(const TriangleMesh& mesh) {
   return triangles;
 }
 
-// What rviz has on its screen.
+// Shows markers as rviz does on its screen.
 class Screen {
  public:
   Screen(ros::NodeHandle& handle, const std::string& topic)
@@ -72,7 +72,7 @@ class Screen {
     const std::lock_guard<std::mutex> lock(mutex_);
     return markers_;
   }
-  // Numbers of markers that came since the last call.
+  // Holds how many markers came since the last call.
   struct Traffic {
     size_t added = 0, deleted = 0, all_deleted = 0;
   };

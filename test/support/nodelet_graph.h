@@ -1,4 +1,5 @@
-// Nodelets loaded into the test's own process, which so is their manager; and a stream of frames for them.
+// Nodelets that are loaded into the test's own process, which is their manager, and a stream of frames for
+// them.
 #pragma once
 
 #include <depth_fusion/MapStatus.h>
@@ -23,7 +24,7 @@ namespace depth_fusion {
 
 constexpr double kPatience_s = 120.0;
 
-// Everything received on a topic.
+// Keeps everything that is received on a topic.
 template <class Message>
 class Listener {
  public:
@@ -42,7 +43,7 @@ class Listener {
   }
   size_t count() const { return all().size(); }
 
-  // The first message that fits; null if none comes.
+  // Waits for the first message that fits; returns null if none comes.
   Ptr await(const std::function<bool(const Message&)>& fits, double patience_s = kPatience_s) const {
     std::unique_lock<std::mutex> lock(mutex_);
     Ptr found;
@@ -80,7 +81,7 @@ inline bool eventually(const std::function<bool()>& condition, double patience_s
   return condition();
 }
 
-// A namespace of its own with nodelets.
+// Runs nodelets in a namespace of their own.
 class NodeletGraph {
  public:
   explicit NodeletGraph(const std::string& name) : handle_("/" + name), spinner_(3) { spinner_.start(); }
@@ -109,7 +110,7 @@ class NodeletGraph {
   nodelet::Loader loader_{false};
 };
 
-// Frames of the simulated room at a quarter of the usual pixels.
+// Describes frames of the simulated room with a quarter of the usual pixels.
 inline SimulationOptions smallRoom(int frames) {
   SimulationOptions options;
   options.frames = frames;
@@ -117,7 +118,7 @@ inline SimulationOptions smallRoom(int frames) {
   return options;
 }
 
-// Publishes frames as a driver does; colour in a frame of its own if that is given.
+// Publishes frames as a driver does, with colour in a tf frame of its own if that is given.
 class FakeCamera {
  public:
   explicit FakeCamera(ros::NodeHandle& handle, const std::string& frame_id = "camera_rgb_optical_frame",
@@ -162,7 +163,7 @@ class FakeCamera {
   ros::Publisher depth_, depth_info_, color_, color_info_;
 };
 
-// As sensors have it: millimetres in 16 bits.
+// Converts depth to what sensors give: millimetres in 16 bits.
 inline RgbdFrame inMillimetres(RgbdFrame frame) {
   frame.depth.convertTo(frame.depth, CV_16U, 1000.0);
   frame.depth_unit_m = 0.001;

@@ -7,7 +7,7 @@
 
 namespace depth_fusion {
 
-// The normals as words hold them: packed and unpacked.
+// Packs the normals and unpacks them, so that they are as the device holds them.
 inline cv::Mat quantisedNormals(cv::Mat normals) {
   reference::forEachPixel<cv::Vec3f>(normals,
                                      [](int, int, cv::Vec3f& n) { n = unpackedNormal(packedNormal(n)); });

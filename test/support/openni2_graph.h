@@ -10,7 +10,7 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr int kFrames = 60;
 
-// Exact depth: the error of the map does not depend on how many frames a busy machine drops.
+// Depth is exact, so that the error of the map does not depend on how many frames a busy machine drops.
 inline SimulationOptions roomOptions() {
   SimulationOptions options = smallRoom(kFrames);
   options.noise = false;
@@ -40,7 +40,7 @@ class OpenNi2 : public testing::Test {
     graph_.handle().setParam("acquisition/" + name, value);
   }
 
-  // That acquisition says so from now on.
+  // Tells whether acquisition says so from now on.
   bool says(int level, const std::string& words) const {
     return diagnostics_.says("acquisition", level, words);
   }

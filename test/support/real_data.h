@@ -6,7 +6,7 @@
 
 namespace depth_fusion {
 
-// DEPTH_FUSION_DATA or ../shared/data; tests run in the repository's root.
+// Returns DEPTH_FUSION_DATA, or else ../shared/data; tests run in the repository's root.
 inline std::string realDataFolder(const std::string& name) {
   const char* folder = std::getenv("DEPTH_FUSION_DATA");
   return std::string(folder != nullptr ? folder : "../shared/data") + "/" + name;

@@ -93,7 +93,8 @@ constexpr double kRadius_m = 0.25;
 
 inline double sphereDistance(const Eigen::Vector3d& p) { return (p - kCentre).norm() - kRadius_m; }
 
-// Errors of a rendered sphere where it is seen at an angle that is not flat, and hits where there is none.
+// Holds the errors of a rendered sphere where it is seen at an angle that is not flat, and the hits where
+// there is no sphere.
 struct ViewErrors {
   size_t hits = 0, missing = 0, false_hits = 0;
   double mean_vox = 0.0, largest_vox = 0.0, largest_angle_rad = 0.0;
@@ -126,7 +127,7 @@ inline ViewErrors compareWithSphere(const Images& view, const Pose& T_W_D, doubl
   return errors;
 }
 
-// render: from a map, a pose and the largest range to Images.
+// `render` makes Images from a map, a pose and the largest range.
 template <class Render>
 void expectNothingOutOfRange(const Render& render) {
   const auto map = makeMap(mapParameters(8), sphereDistance);

@@ -14,7 +14,7 @@ inline Pose motionOf(const Eigen::Vector3d& rotation_deg, const Eigen::Vector3d&
   return poseFromTwist(twist);
 }
 
-// A pose within the room that sees furniture.
+// Returns a pose within the room that sees furniture.
 inline Pose roomPose() {
   SimulationOptions options;
   return SimulatedRecording(options).poseOf(60).T_W_D;

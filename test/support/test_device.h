@@ -29,11 +29,11 @@ class TestDevice {
   }
   ~TestDevice() { unsetenv(kTestDeviceVariable); }
 
-  // To be followed by apply().
+  // A change takes effect at the next call of apply().
   DeviceControl control;
   void apply() const { writeControl(folder_.path(), control); }
 
-  // The only one that it has.
+  // Returns the only video mode that the device has.
   const std::string& mode() const { return mode_; }
   DeviceParameters parameters() const {
     DeviceParameters parameters;
@@ -41,7 +41,7 @@ class TestDevice {
     return parameters;
   }
 
-  // What the driver was told last: "auto_exposure auto_white_balance exposure gain".
+  // Returns what the driver was told last: "auto_exposure auto_white_balance exposure gain".
   std::string settings() const {
     std::string line;
     std::ifstream file(settingsPath(folder_.path()));
@@ -49,8 +49,8 @@ class TestDevice {
     return line;
   }
 
-  // The whole recording from its first frame on, by OpenNI2's own recorder; once a process, for its thread
-  // calls OpenNI2 and ends (see inOpenNi2Thread).
+  // Records all the frames from the first on, by OpenNI2's own recorder. It works once a process, for its
+  // thread calls OpenNI2 and ends (see inOpenNi2Thread).
   void recordOni(const std::string& path, int frames) {
     inOpenNi2Thread([&] {
       const OpenNi2Runtime runtime;

@@ -24,9 +24,9 @@ class DepthPreprocessor {
 
   // The frames to come are preprocessed by these. Throws as validateRange does, and changes nothing then.
   void setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
-  // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s); with it the depth
+  // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s). With it the depth
   // becomes that of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid
-  // until the next call. Throws Error if the type or size of depth or weights is not the expected.
+  // until the next call. Throws Error if depth or weights have another type or size than expected.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity = Vector6d::Zero());
   // The same as a step of a frame's way: it is timed, and done when the call returns.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity, StageTimers& timers);

@@ -21,7 +21,7 @@ struct PreprocessingParameters {
   ParameterTable table();
 };
 
-// Throws Error if a parameter lies outside its range, or no depth in the range of both.
+// Throws Error if a parameter lies outside its range, or if no depth lies in the range of both.
 void validateRange(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
 
 }  // namespace depth_fusion

@@ -9,14 +9,14 @@
 
 namespace depth_fusion {
 
-// The formats: "ply" (binary, normals and colours), "obj" (text, normals and colours) and "stl" (binary,
-// neither).
+// Names the formats: "ply" (binary, with normals and colours), "obj" (text, with normals and colours) and
+// "stl" (binary, with neither).
 const std::vector<std::string>& meshFormats();
 
-// Streams a mesh to a file of one of the formats; an empty one means that of the path's ending. The memory
-// used does not depend on the mesh. The file appears when finish() succeeded; else nothing is left, and a
-// file that stood there stays. Throws Error for an unknown format, naming those there are, and if the file
-// cannot be created.
+// Streams a mesh to a file of the given format; with an empty format the path's ending decides. The memory
+// used does not depend on the mesh. The file appears when finish() has succeeded; otherwise nothing is left
+// of it, and a file that stood there stays. Throws Error for an unknown format, with the names of the known
+// ones, and if the file cannot be created.
 std::unique_ptr<MeshSink> createMeshFile(const std::string& path, const std::string& format = "");
 
 }  // namespace depth_fusion

@@ -16,20 +16,20 @@ enum class MeshPaint {
   kShaded,  // bluish grey, lit from the camera, red where seen from behind
 };
 
-// The triangles in front of the camera. Triangles that reach behind the camera are left out.
-// CV_8UC3, BGR.
+// Draws the triangles in front of the camera, as CV_8UC3, BGR. Triangles that reach behind the camera are
+// left out.
 cv::Mat renderMesh(const TriangleMesh& mesh, const CameraIntrinsics& camera, const Pose& T_W_C,
                    MeshPaint paint = MeshPaint::kColors);
 
-// A camera of the given size and field of view with its principal point in the middle.
+// Makes a camera of the given size and field of view with its principal point in the middle.
 CameraIntrinsics pictureCamera(int width, int height, double horizontal_view_rad);
 
-// Names for viewOf, the default first.
+// Lists the names that viewOf() knows, the default first.
 const std::vector<std::string>& viewNames();
 
-// A pose from which the camera sees the mesh, but for one vertex in a hundred. The mesh is taken to be in the
-// frame of its first camera (x right, y down, z forward): "auto" looks forward and down from behind, the
-// others along an axis. Throws Error for another name, and for a mesh without vertices.
+// Returns a pose from which the camera sees the mesh, but for one vertex in a hundred. The mesh is taken to
+// be in the frame of its first camera (x right, y down, z forward): "auto" looks forward and down from
+// behind, the others look along an axis. Throws Error for another name, and for a mesh without vertices.
 Pose viewOf(const TriangleMesh& mesh, const CameraIntrinsics& camera, const std::string& name);
 
 }  // namespace depth_fusion

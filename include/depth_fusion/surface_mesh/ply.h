@@ -13,8 +13,9 @@ namespace depth_fusion {
 
 class WholeFile;
 
-// Streams a mesh to a file; memory use does not depend on the mesh. Errors name the path and the reason.
-// The file appears when finish() succeeded; else nothing is left, and a file that stood there stays.
+// Streams a mesh to a file; memory use does not depend on the mesh. Errors name the path and the reason. The
+// file appears when finish() has succeeded; otherwise nothing is left of it, and a file that stood there
+// stays.
 class PlyWriter final : public MeshSink {
  public:
   // Throws Error if the file cannot be created.
@@ -36,9 +37,9 @@ class PlyWriter final : public MeshSink {
 
 void writePly(const std::string& path, const TriangleMesh& mesh);
 
-// Reads a binary little-endian PLY file with float x y z, with or without nx ny nz and uchar red
-// green blue, among any other numbers of a vertex, and triangles. Throws Error naming the path and what is
-// wrong.
+// Reads a binary little-endian PLY file of triangles. Its vertices have float x y z, may have float nx ny nz
+// and uchar red green blue, and any other numbers, which are skipped. Throws Error, which names the path and
+// what is wrong.
 TriangleMesh readPly(const std::string& path);
 
 }  // namespace depth_fusion

@@ -12,10 +12,10 @@ enum class OpenBorders { kMayMove, kStay };
 // Whether depth_fusion was built with meshoptimizer, which simplifies meshes.
 bool canSimplify();
 
-// The share `ratio`, above 0 and up to 1, of the mesh's triangles, or as few more as its topology allows:
-// edges collapse where that moves the surface least. The vertices left keep position, normal and colour. All
-// of it happens in memory. Throws Error for another ratio, and for one below 1 where depth_fusion was built
-// without meshoptimizer.
+// Returns the mesh with the share `ratio`, above 0 and up to 1, of its triangles, or with as few more as its
+// topology allows: edges collapse where that moves the surface least. The vertices that are left keep
+// position, normal and colour. Throws Error for another ratio, and for one below 1 where depth_fusion was
+// built without meshoptimizer.
 TriangleMesh simplified(const TriangleMesh& mesh, double ratio, OpenBorders borders = OpenBorders::kMayMove);
 
 }  // namespace depth_fusion

@@ -16,7 +16,7 @@ struct MeshVertex {
 
 using MeshColor = std::array<uint8_t, 3>;  // red, green, blue
 
-// Vertices by number, counter-clockwise seen from free space.
+// A triangle names its vertices by number, counter-clockwise as seen from free space.
 using MeshTriangle = std::array<uint32_t, 3>;
 
 struct MeshSize {
@@ -25,9 +25,10 @@ struct MeshSize {
   bool colored = false;  // each vertex has a colour
 };
 
-// Receives a mesh whose size is known beforehand: begin, then vertices and triangles in turn, each in order,
-// then finish. `colors` holds one a vertex, or is null if the mesh is not coloured. Triangles may name
-// vertices yet to come. Throws Error if the mesh cannot be kept.
+// Receives a mesh whose size is known beforehand: begin() is called first, then vertices and triangles come
+// in turn, each in order, then finish() is called. `colors` holds one colour a vertex, or is null if the mesh
+// is not coloured. Triangles may name vertices that come later. Every call throws Error if the mesh cannot be
+// kept.
 class MeshSink {
  public:
   virtual ~MeshSink() = default;

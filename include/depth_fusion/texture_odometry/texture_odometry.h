@@ -19,19 +19,19 @@ class TextureOdometry {
   // The frames to come are matched by these.
   void setParameters(const TextureOdometryParameters& parameters, const DepthSensorParameters& sensor);
 
-  // The motion against the frame of the last call.
+  // Finds the motion against the frame of the last call.
   TextureOdometryResult process(const RgbdFrame& frame);
   // The same with the frame's features, and timed; without either, but with the reason, unless texture
   // odometry is enabled.
   TexturedFrame texture(const RgbdFrame& frame, StageTimers& timers);
   void reset();
 
-  // The features of the last call's frame.
+  // Returns the features of the last call's frame.
   const FrameFeatures& previous() const { return previous_; }
 
   FrameFeatures extract(const RgbdFrame& frame) const;
-  // The motion of `current` against `reference`, which may be a keyframe: anywhere_in_image lifts the limit
-  // on how far a feature moves.
+  // Finds the motion of `current` against `reference`, which may be a keyframe: anywhere_in_image lifts the
+  // limit on how far a feature moves.
   TextureOdometryResult match(const FrameFeatures& reference, const FrameFeatures& current,
                               bool anywhere_in_image = false) const;
 

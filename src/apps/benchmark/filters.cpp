@@ -66,7 +66,7 @@ PlotLine underGrowingNoise(ComputeContext& compute, const std::string& name, con
   return lineOf(name, errors);
 }
 
-// Filters of the same gain at first. The Kalman filter is told of the noise.
+// Compares filters that have the same gain at first. The Kalman filter is told of the noise.
 void compareUnderGrowingNoise(ComputeContext& compute, const std::string& folder) {
   LinePlot plot{
       "noise grows from 1.9 to 6.1 mm; all filters begin with a gain of 0.05", "frame", "RMS error [mm]", {}};
@@ -77,8 +77,8 @@ void compareUnderGrowingNoise(ComputeContext& compute, const std::string& folder
   write(folder, "filters_growing_noise", plot);
 }
 
-// A wall that moves by 4 mm in mid-run: the error of the whole history tells how fast a filter answers, that
-// of the last frames how well it smooths.
+// Runs a wall that moves by 4 mm in mid-run: the error of the whole history tells how fast a filter answers,
+// that of the last frames how well it smooths.
 void qualityAgainstResponse(ComputeContext& compute, const std::string& folder) {
   WallExperiment experiment;
   experiment.frames = kFrames;

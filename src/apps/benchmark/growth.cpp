@@ -26,8 +26,8 @@ PipelineParameters walkParameters(double voxel_mm, double window_m) {
   return parameters;
 }
 
-// Rooms of a grid, the first one's among them: 3 x 3 x 2, so that the window, which begins before the first
-// camera, holds them all.
+// Returns the places of the rooms, the first one's among them: a grid of 3 x 3 x 2, so that the window, which
+// begins before the first camera, holds them all.
 std::vector<Eigen::Vector3d> rooms() {
   std::vector<Eigen::Vector3d> corners;
   for (const int z : {0, 1}) {
@@ -55,7 +55,7 @@ GrowthSample sampleOf(GrowthWalk& walk, const CameraIntrinsics& camera, double v
   return sample;
 }
 
-// Forth through new surface, and back, timed, through what is mapped.
+// Goes forth through new surface, and back, timed, through what is mapped.
 GrowthSample visit(GrowthWalk& walk, const Eigen::Vector3d& room_W, const CameraIntrinsics& camera,
                    double voxel_mm) {
   walk.enter(room_W);
@@ -88,7 +88,8 @@ void printRatios(const StageTimers& young, const StageTimers& grown) {
   std::printf("  target %.1f %s\n", kTarget, ratio <= kTarget ? "met" : "MISSED");
 }
 
-// The grown walk back in its first room, and a new one that knows nothing else, in turn on the same views.
+// Times, in turn on the same views, the grown walk back in its first room and a new one that knows nothing
+// else.
 void compareInTurn(ComputeContext& compute, const PipelineParameters& parameters, GrowthWalk& grown,
                    const std::vector<RgbdFrame>& views) {
   GrowthWalk young(compute, parameters, views);

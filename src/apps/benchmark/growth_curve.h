@@ -8,7 +8,7 @@
 
 namespace depth_fusion {
 
-// A walk's medians since its timing started, and what it had come to by then.
+// Holds a walk's medians since its timing started, and what it had come to by then.
 struct GrowthSample {
   size_t frames = 0, lost = 0, blocks = 0;
   double blocks_in_view = 0.0;  // mean

@@ -8,21 +8,21 @@
 
 namespace depth_fusion {
 
-// Depth images, without colour (what texture takes depends on no map, and keyframes of rooms alike mislead),
-// of consecutive views of the simulated room, in millimetres as sensors give them. `width` scales the camera
-// of 640x480.
+// Renders depth images of consecutive views of the simulated room, in millimetres as sensors give them. They
+// have no colour, for what texture takes depends on no map, and keyframes of rooms alike mislead. `width`
+// scales the camera of 640x480.
 std::vector<RgbdFrame> roomViews(int width, size_t count);
 
 class GrowthWalk {
  public:
-  // Keeps references to both. Not enough pool for the walk is an Error as it shows.
+  // Keeps references to its arguments. A pool that turns out to be too small for the walk is an Error.
   GrowthWalk(ComputeContext& compute, const PipelineParameters& parameters,
              const std::vector<RgbdFrame>& views);
 
   // Goes to the first view of the room whose first camera stands at room_W; the start is known. Timers begin
   // anew.
   void enter(const Eigen::Vector3d& room_W);
-  // One tracked frame of the present room.
+  // Tracks and fuses one frame of the present room.
   void look(size_t view);
   // They go from the first view to the last, and back.
   void lookForth();

@@ -9,7 +9,8 @@
 namespace depth_fusion {
 namespace {
 
-// Steps of a ray that is followed, one in four; counted over tum_fr1_xyz (docs/benchmarks.md).
+// A ray that is followed, one in four, takes so many steps, as counted over tum_fr1_xyz
+// (docs/design_notes.md).
 constexpr double kRaySteps = 12.0;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What kernels must move and compute at least, estimated from their source: with the limits of the device
-// (limit/*) that tells how much faster a kernel could be.
+// What kernels must move and compute at least, estimated from their source. With the limits of the device
+// (limit/*) this tells how much faster a kernel could be.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct KernelCost {
   double gathers;       // words from places that data decide
 };
 
-// Nothing for kernels that it does not pay to estimate.
+// Returns nothing for kernels that it does not pay to estimate.
 std::optional<KernelCost> kernelCost(const std::string& kernel, const StageFixture::Stage& stage,
                                      StageFixture& fixture);
 

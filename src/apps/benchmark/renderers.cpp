@@ -21,7 +21,7 @@ struct Comparison {
   double ray_casting_ms = 0.0, marching_cubes_ms = 0.0;
 };
 
-// Both renderers in turn, from several of the poses.
+// Runs both renderers in turn, from several of the poses.
 Comparison compare(ComputeContext& compute, PipelineParameters parameters, const MapParameters& map,
                    const std::vector<RgbdFrame>& frames) {
   parameters.map = map;

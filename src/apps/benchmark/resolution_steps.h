@@ -24,16 +24,18 @@ struct ResolutionOptions {
 
 void addResolutionOptions(CLI::App& command, ResolutionOptions& options);
 
-// The simulated room and tum_fr1_xyz with its camera file. Throws Error for an input that is not known.
+// Returns the simulated room and tum_fr1_xyz with its camera file, by name. Throws Error for an input that is
+// not known.
 std::vector<TrackingInput> resolutionInputs(const ResolutionOptions& options);
 
-// The input's first frames, to be run through more than once.
+// Returns the input's first frames, to be run through more than once.
 std::vector<RgbdFrame> firstFrames(const TrackingInput& input, size_t count);
 
-// Blocks of 8^3; what the limit leaves beside the offsets is the pool. Throws Error if nothing is left.
+// Sets up a map with blocks of 8^3; what the limit leaves beside the offsets is the pool. Throws Error if
+// nothing is left.
 MapParameters mapInBox(const ResolutionOptions& options, int voxels_per_axis);
 
-// The sum of the medians of the stage's timers, those within it included.
+// Returns the sum of the medians of the stage's timers, those within it included.
 double stageMedian_ms(const StageTimers& timers, const std::string& stage);
 
 }  // namespace depth_fusion

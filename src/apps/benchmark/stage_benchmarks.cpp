@@ -31,7 +31,7 @@ void runPart(State& state, StageFixture& fixture, const Stage& stage, const std:
   }
 }
 
-// A kernel of a stage, on one level of the pyramid or wherever the stage launches it.
+// Names a kernel of a stage, on one level of the pyramid or wherever the stage launches it.
 struct StageKernel {
   std::string name;
   std::string kernel;
@@ -43,7 +43,7 @@ struct Work {
   double items = 0.0;
 };
 
-// The kernel's launches together, or the mean one on a level.
+// Returns the work of the kernel's launches together, or of the mean one on a level.
 Work workOf(const StageKernel& measured, const std::vector<KernelLaunch>& launches) {
   Work work;
   int count = 0;

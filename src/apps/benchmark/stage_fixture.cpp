@@ -139,7 +139,7 @@ void StageFixture::track() {
                  MotionPrior{T_W_D_, std::nullopt, {}}, timers_);
 }
 
-// One iteration's sums.
+// Sums up the system of one iteration.
 template <int level>
 void StageFixture::accumulateLevel() {
   const IcpTrackingParameters& icp = parameters_.icp_tracking;

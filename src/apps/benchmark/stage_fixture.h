@@ -22,7 +22,7 @@ class StageFixture {
   };
   static const std::vector<Stage>& stages();
 
-  // Once, as the pipeline does in a frame; waits until it is done.
+  // Runs the stage once, as the pipeline does in a frame, and waits until it is done.
   void run(const Stage& stage);
 
   ComputeContext& compute() { return compute_; }

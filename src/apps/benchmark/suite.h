@@ -5,8 +5,8 @@
 
 namespace depth_fusion {
 
-// What the app does without a subcommand; takes google-benchmark's own options, too. To be called when all
-// subcommands are there.
+// Adds what the app does without a subcommand, which takes google-benchmark's own options, too. It is called
+// when all subcommands are there.
 void addBenchmarkSuite(CLI::App& app, TrackingBenchmark& options);
 
 }  // namespace depth_fusion

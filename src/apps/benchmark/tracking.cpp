@@ -23,7 +23,7 @@ struct Variant {
   std::vector<std::pair<std::string, std::string>> parameters;  // changed from the input's
 };
 
-// Without a weight, the prior is where ICP starts, and no more.
+// A prior without weight is where ICP starts, and no more.
 const std::vector<Variant> kAblation = {
     {"ICP", {{"texture_odometry/enabled", "false"}, {"icp_tracking/degeneracy_threshold", "0"}}},
     {"ICP + texture", {{"texture_odometry/sigma_scale", "1000"}, {"icp_tracking/degeneracy_threshold", "0"}}},
@@ -74,7 +74,7 @@ void measure(const Trajectory& trajectory, const Trajectory& truth, Outcome& out
   }
 }
 
-// All of them at once, for several variants to run on.
+// Reads all the frames at once, for several variants to run on.
 std::vector<RgbdFrame> framesOf(const TrackingInput& input) {
   const std::unique_ptr<Recording> recording = input.open();
   std::vector<RgbdFrame> frames;
@@ -121,7 +121,7 @@ std::string tableRow(const TrackingInput& input, const Variant& variant, const O
   return row;
 }
 
-// The variants' meshes side by side, all seen from where the last one is seen best.
+// Draws the variants' meshes side by side, all seen from where the last one is seen best.
 void drawMeshes(const std::string& path, const std::vector<Variant>& variants,
                 const std::vector<Outcome>& outcomes) {
   const CameraIntrinsics camera = pictureCamera(640, 480, CV_PI / 3.0);

@@ -15,10 +15,10 @@ struct TrackingInput {
   PipelineParameters parameters;
 };
 
-// `chosen`, or $DEPTH_FUSION_DATA, or ../shared/data.
+// Returns `chosen`, or if it is empty $DEPTH_FUSION_DATA, or else ../shared/data.
 std::string dataFolder(const std::string& chosen);
 
-// The simulated room, without its truth.
+// Returns the simulated room, without its truth.
 TrackingInput roomInput(int frames);
 
 // The inputs that options.inputs names, or all. Throws Error for a name that is not known.

@@ -20,7 +20,7 @@ struct CalibrationReport {
   PipelineParameters corrected;     // the parameters with all that was found
 };
 
-// For the terminal: what was found, how sure it is, and what is not known and why.
+// Says for the terminal what was found, how sure it is, and what is not known and why.
 std::string reportText(const CalibrationReport& report);
 
 // Write calibration.yaml, for --params, report.json and calibration.png into the folder. Throw Error if they

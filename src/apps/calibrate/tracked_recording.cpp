@@ -13,7 +13,7 @@ constexpr size_t kMaxFrames = 100;
 constexpr double kFirstStep = 0.02;  // metres, and radians, from one frame to the next
 constexpr double kMaxGap_s = 0.25;
 
-// Frames a step apart; the step grows so that they do not become too many.
+// Keeps frames a step apart; the step grows so that they do not become too many.
 class FrameChoice {
  public:
   void offer(const RgbdFrame& frame, const Pose& T_W_D) {

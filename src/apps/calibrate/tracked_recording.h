@@ -23,7 +23,7 @@ struct TrackingRange {
 TrackedRecording track(ComputeContext& compute, Recording& recording, const PipelineParameters& parameters,
                        const TrackingRange& range);
 
-// The motions from each pose to the next.
+// Returns the motions from each pose to the next.
 std::vector<MeasuredMotion> motionsOf(const Trajectory& trajectory);
 
 }  // namespace depth_fusion

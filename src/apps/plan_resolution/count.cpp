@@ -21,7 +21,8 @@ constexpr double kMaxPoseGap_s = 0.1;
 
 size_t offsetBytes(const PlanRow& row) { return mapBytes(row.map, 0); }
 
-// The rows [first, the result) whose offsets fit into the limit together, one at least.
+// Returns the end of the rows from `first` on whose offsets fit into the limit together; it is one row at
+// least.
 size_t endOfPass(const ResolutionPlan& plan, size_t first) {
   size_t bytes = offsetBytes(plan.rows[first]), end = first + 1;
   while (end < plan.rows.size() && bytes + offsetBytes(plan.rows[end]) <= plan.request.limit_bytes)
@@ -97,7 +98,7 @@ struct BlockCounting::Mesh : BlockCounting::Surface {
   TriangleMesh mesh;
 };
 
-// A recording, read as often as needed.
+// Holds a recording, which is read as often as needed.
 struct BlockCounting::Frames : BlockCounting::Surface {
   explicit Frames(const CountingOptions& counting_options)
       : options(counting_options), compute(options.device), recording(open()) {
@@ -178,7 +179,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
     recording.reset();
   }
 
-  // Nothing for a frame that cannot be read, which is said the first time.
+  // Returns nothing for a frame that cannot be read, and says so the first time.
   std::optional<RgbdFrame> nextFrame() {
     try {
       return recording->next();

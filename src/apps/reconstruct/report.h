@@ -8,7 +8,7 @@
 
 namespace depth_fusion {
 
-// Frames in a row that were lost.
+// Describes frames in a row that were lost.
 struct Loss {
   size_t first_frame = 0;  // counted from 1
   size_t frames = 0;
@@ -25,7 +25,7 @@ struct RunCounts {
   std::vector<Loss> losses;
 };
 
-// Largest resident set of the process so far.
+// Returns the largest resident set of the process so far, in bytes.
 size_t peakRssBytes();
 
 // Throws Error if the file cannot be written completely.

@@ -33,18 +33,18 @@ class Run {
 
  private:
   void fuseRecording();
-  // The next frame, past those that cannot be read; nothing at the end.
+  // Reads the next frame, past those that cannot be read; returns nothing at the end.
   std::optional<RgbdFrame> nextFrame();
   void buildPipeline(const CameraIntrinsics& camera);
   void fuseFrame(const RgbdFrame& frame, const RgbdFrame* next);
   void noteResult(const RgbdFrame& frame, const FrameResult& result);
   void noteLoss(const std::string& reason);
-  // An event of the frame, on a line of its own.
+  // Prints an event of the frame on a line of its own.
   void say(const std::string& event) const;
   // Says the first time that a frame's colour cannot be read.
   void noteColor(const RgbdFrame& frame);
   void showProgress(bool last);
-  // 0 before the first frame.
+  // Returns 0 before the first frame.
   double medianFrame_ms() const;
   void writeResults();
   void writeMesh(const std::string& path);

@@ -42,7 +42,7 @@ struct NormalEquations {
   }
 };
 
-// Residuals that also depend on N unknowns of their own: a pair's relative pose, a plane.
+// Adds up residuals that also depend on N unknowns of their own: a pair's relative pose, or a plane.
 template <int N>
 class LocalSystem {
  public:
@@ -58,7 +58,7 @@ class LocalSystem {
     }
   }
 
-  // The step of the local unknowns alone.
+  // Returns the step of the local unknowns alone.
   LocalVector localStep() const { return -solver().solve(local_gradient_); }
 
   // The equations of the shared parameters, with the local unknowns always at their best.
@@ -83,7 +83,7 @@ class LocalSystem {
   NormalEquations shared_;
 };
 
-// Tukey's biweight of a residual in its standard deviations.
+// Returns Tukey's biweight of a residual, which is given in its standard deviations.
 inline double tukeyWeight(double sigmas, double cutoff_sigmas) {
   const double part = sigmas / cutoff_sigmas;
   const double rest = 1.0 - part * part;

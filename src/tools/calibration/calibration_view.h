@@ -1,4 +1,4 @@
-// What a frame's depth looks like under the correction so far, on the host.
+// Shows a frame's depth under the correction so far, on the host.
 #pragma once
 
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
@@ -13,17 +13,17 @@ struct ViewPoint {
   double sigma_m;  // of the depth
 };
 
-// The depth, halved, of a frame.
+// Holds a frame's depth at half its width and height.
 class CalibrationView {
  public:
   // Preprocesses the frame as tracking and fusion do.
   CalibrationView(DepthPreprocessor& preprocessor, const CalibrationFrame& frame);
 
-  // Nothing without depth and normal there, or outside of the image.
+  // Returns the point at a pixel, or nothing where depth or normal is missing, and outside of the image.
   std::optional<ViewPoint> at(int x, int y) const;
-  // What the camera sees where the point falls.
+  // Returns what the camera sees where the point falls.
   std::optional<ViewPoint> under(const Eigen::Vector3d& p_D) const;
-  // Points spread over the image, `columns` of them across its width.
+  // Returns points spread over the image, `columns` of them across its width.
   std::vector<ViewPoint> sample(int columns) const;
   const CameraIntrinsics& camera() const { return camera_; }
   const DepthSensorParameters& sensor() const { return sensor_; }

@@ -12,27 +12,28 @@
 namespace depth_fusion {
 namespace {
 
-// What is known of a sensor before: neighbouring offsets differ by about 1 % of the depth at 1 m, and as its
-// maker has calibrated it, their mean is 0 to half a percent. Without the latter, small errors of any kind
-// would turn into a large common offset, which real scenes tell little of.
+// This is known of a sensor beforehand: neighbouring offsets differ by about 1 % of the depth at 1 m, and as
+// its maker has calibrated it, their mean is 0 to half a percent. Without the latter, small errors of any
+// kind would turn into a large common offset, which real scenes tell little of.
 constexpr double kNeighbourSigma_per_m = 0.01;
 constexpr double kMeanSigma_per_m = 0.005;
 constexpr double kReadoutSigma_s = 0.03;
-// An offset, and the readout, counts as determined if its standard deviation is below.
+// An offset, and the readout, counts as determined if its standard deviation is below these.
 constexpr double kObservedOffset_per_m = 0.008;
 constexpr double kObservedReadout_s = 0.008;
 
-// Residuals of neighbouring pixels, and of frames with the same noise pattern, are no independent ones.
+// Residuals of neighbouring pixels, and of frames with the same noise pattern, depend on each other: so many
+// count as one.
 constexpr double kCorrelatedResiduals = 200.0;
-// What the method itself is off by, found on simulated recordings: no uncertainty is below.
+// The method itself is off by these, as simulated recordings show; no uncertainty is smaller.
 constexpr double kMethodOffsetSigma_per_m = 0.0015;
 constexpr double kMethodReadoutSigma_s = 0.0015;
-// The frames' parts that uncertainties are taken from: how much they contradict each other.
+// Uncertainties are taken from how much so many parts of the frames contradict each other.
 constexpr int kSegments = 10;
 
-// Frames of a pair are so many apart.
+// The frames of a pair are so many frames apart.
 constexpr int kPairGaps[] = {1, 2, 4, 8, 16};
-// The passes, with where residuals end to count.
+// Each pass counts residuals up to so many standard deviations.
 constexpr double kCutoffs_sigmas[] = {4.0, 3.0, 3.0};
 
 ParameterMatrix priorHessian() {

@@ -23,7 +23,7 @@ struct CalibrationFrame {
   Vector6d velocity = Vector6d::Zero();  // of D in D, per second
 };
 
-// How far planes are from flat, before or after the correction, apart from noise.
+// Says how far planes are from flat, before or after the correction, apart from noise.
 struct DepthResiduals {
   cv::Mat
       map_per_m;  // CV_32FC1: what their inverse depth lacks, by part of the image; NaN where there are none
@@ -41,9 +41,9 @@ struct DepthCalibration {
   DepthResiduals before, after;
 };
 
-// The depth offsets and the readout that make the frames fit best. The frames' order is that of time.
-// Parameters say the sensor's noise, range, stamp delay and a first readout. Throws Error if the frames
-// determine no offset, and says why.
+// Finds the depth offsets and the readout that make the frames fit best. The frames are in the order of time.
+// The parameters say the sensor's noise, range, stamp delay and a first readout. Throws Error, which says
+// why, if the frames determine no offset.
 DepthCalibration calibrateDepth(ComputeContext& compute, const PipelineParameters& parameters,
                                 const std::vector<CalibrationFrame>& frames);
 

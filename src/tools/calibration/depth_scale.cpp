@@ -17,7 +17,7 @@ constexpr size_t kMinPoses = 50;
 
 using Points = Eigen::Matrix3Xd;
 
-// The columns but those of one of the segments.
+// Returns the columns without those of one of the segments.
 Points without(const Points& points, int segment) {
   const Eigen::Index begin = segment * points.cols() / kSegments,
                      end = (segment + 1) * points.cols() / kSegments;

@@ -6,11 +6,11 @@
 
 namespace depth_fusion {
 
-// Times it, the tracked trajectory has the size of the true one. Throws Error if the true one covers too
-// little of it.
+// Finds the factor by which the tracked trajectory gets the size of the true one. Throws Error if the true
+// one covers too little of it.
 Estimate scaleAgainst(const Trajectory& tracked, const Trajectory& truth);
 
-// The same from the straight distance between the first and the last pose, measured to +-sigma.
+// Finds the same from the straight distance between the first and the last pose, measured to +-sigma.
 Estimate scaleAgainst(const Trajectory& tracked, const Estimate& distance_m);
 
 }  // namespace depth_fusion

@@ -17,8 +17,8 @@ constexpr double kMinNormalCosine = 0.85;
 constexpr double kMinMatchedPart = 0.2;
 constexpr size_t kMinMatches = 200;
 
-// Derivatives and weights are those of the mean of both points, in which their noise does not correlate with
-// that of the residual. Taken at either point, they would: the least squares would then prefer depth that
+// Derivatives and weights are those of the mean of both points, whose noise does not correlate with that of
+// the residual. Taken at either point, they would correlate, and the least squares would prefer depth that
 // shrinks.
 struct PointMatch {
   ViewPoint a, b;  // moved to their mean along their rays
@@ -26,7 +26,7 @@ struct PointMatch {
   double residual_m, sigma_m;
 };
 
-// The variance of a point across the plane, noise being along the ray.
+// Returns the variance of a point across the plane; the noise itself is along the ray.
 double varianceAcross(const ViewPoint& point, const Vector3d& normal) {
   return std::pow(point.sigma_m * normal.dot(point.p_D) / point.p_D.z(), 2);
 }

@@ -7,7 +7,7 @@ namespace depth_fusion {
 
 class ResidualMap {
  public:
-  // A residual of the inverse depth at a pixel of the camera's image.
+  // Adds a residual of the inverse depth at a pixel of the camera's image.
   void add(const cv::Point& pixel, const CameraIntrinsics& camera, double residual_per_m, double weight);
   DepthResiduals residuals() const;
 

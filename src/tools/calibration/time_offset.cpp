@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMaxPoseGap_s = 0.1;
 constexpr double kDifference_s = 0.1;  // for the acceleration, whose noise falls with it
-// The square of the acceleration that noise alone gives three components, in squares of the residuals' sigma.
+// Noise alone gives three components an acceleration with this square, in squares of the residuals' sigma.
 constexpr double kNoiseCurvature = 3.0 * 0.27 / (kDifference_s * kDifference_s);
 constexpr double kMinCurvature = 3.0;  // times that of noise
 constexpr double kMaxOffset_s = 0.2;
@@ -24,7 +24,7 @@ constexpr size_t kMinMotions = 30;
 constexpr int kSteps = 15;
 constexpr int kSegments = 10;
 
-// A motion that differs, and how the trajectory's would change with the offset.
+// Holds by how much a motion differs, and how the trajectory's motion would change with the offset.
 struct Difference {
   Vector6d residual, by_offset;
 };

@@ -9,8 +9,8 @@
 
 namespace depth_fusion {
 
-// Counts by block selection itself, which claims each block once; the claims are never met. Takes 4 * N^3
-// bytes.
+// Counts by block selection itself, which claims each block once; no block is allocated for the claims. It
+// takes 4 * N^3 bytes.
 class SelectedBlocks {
  public:
   // The window's middle is the block with the point centre_W.
@@ -31,7 +31,8 @@ class SelectedBlocks {
   std::unique_ptr<Selection> selection_;
 };
 
-// Blocks of the map's window that have a voxel within the truncation of the mesh, along its normals.
+// Counts the blocks of the map's window that have a voxel within the truncation of the mesh, along its
+// normals.
 size_t blocksAround(const TriangleMesh& mesh, const MapParameters& map, const Eigen::Vector3d& centre_W);
 
 }  // namespace depth_fusion

@@ -6,7 +6,7 @@
 namespace depth_fusion {
 namespace {
 
-// A window of blocks, and which of them have been met.
+// Holds a window of blocks, and which of them have been met.
 class MetBlocks {
  public:
   MetBlocks(const MapParameters& map, const Eigen::Vector3d& centre_W)

@@ -20,7 +20,7 @@ std::vector<Vector3d> positionsOf(const TriangleMesh& mesh, const Pose& T_W_M) {
   return positions_W;
 }
 
-// The area of all triangles up to and with each one.
+// Returns, for each triangle, the area of all triangles up to and with it.
 std::vector<double> cumulativeAreas(const std::vector<Vector3d>& positions_W,
                                     const std::vector<MeshTriangle>& triangles) {
   std::vector<double> areas_m2;
@@ -33,7 +33,7 @@ std::vector<double> cumulativeAreas(const std::vector<Vector3d>& positions_W,
   return areas_m2;
 }
 
-// The index-th point of a low-discrepancy sequence over a triangle (R2, folded at the diagonal).
+// Returns the index-th point of a low-discrepancy sequence over a triangle (R2, folded at the diagonal).
 Vector3d pointOn(const Vector3d& a, const Vector3d& b, const Vector3d& c, int index) {
   double s = std::fmod(0.5 + 0.7548776662466927 * index, 1.0);
   double t = std::fmod(0.5 + 0.5698402909980532 * index, 1.0);

@@ -23,7 +23,7 @@ void validate(const PlanRequest& request) {
   check(request.limit_bytes > 0, "the memory limit must be positive");
 }
 
-// The cube of blocks that is at least `voxels` wide.
+// Adds the cube of blocks that is at least `voxels` wide.
 void addChoice(ResolutionPlan& plan, int block_size, double voxels) {
   PlanRow row;
   row.map = plan.request.map;

@@ -29,8 +29,8 @@ struct ResolutionPlan {
   std::vector<PlanRow> rows;  // by voxels per axis, then by block size
 };
 
-// The sensible choices, not counted: N * M from 512 to 5000, and of the wished voxel size. Throws Error for a
-// box, voxel size or limit that no map can have.
+// Lists the sensible choices, whose blocks are not counted yet: N * M from 512 to 5000, and those of the
+// wished voxel size. Throws Error for a box, voxel size or limit that no map can have.
 ResolutionPlan resolutionChoices(const PlanRequest& request);
 
 // Notes the number of blocks that the surface meets.
@@ -42,7 +42,7 @@ bool fits(const PlanRow& row, const PlanRequest& request);
 // fit; where several are of that size, the one that is fastest to map with. Null if none fits.
 PlanRow* recommended(ResolutionPlan& plan);
 
-// MiB of the pool that the row's blocks need, with a quarter to spare; see map/pool_mib.
+// Returns the MiB of a pool for the row's blocks, with a quarter to spare; see map/pool_mib.
 int poolMebibytes(const PlanRow& row);
 
 }  // namespace depth_fusion

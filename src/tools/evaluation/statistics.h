@@ -15,7 +15,7 @@ struct ErrorStatistics {
   double max = 0.0;
 };
 
-// All zero without errors.
+// Every figure is zero if there are no errors.
 ErrorStatistics statisticsOf(const std::vector<double>& errors);
 
 }  // namespace depth_fusion

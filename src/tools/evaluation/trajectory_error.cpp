@@ -25,7 +25,8 @@ std::string spanText(const Trajectory& trajectory) {
   return text;
 }
 
-// The rigid motion that brings the estimated positions nearest to the true ones (Umeyama without scale).
+// Finds the rigid motion that brings the estimated positions nearest to the true ones (Umeyama without
+// scale).
 Pose alignment(const std::vector<PosePair>& pairs) {
   Eigen::Matrix3Xd estimate(3, pairs.size()), truth(3, pairs.size());
   for (size_t i = 0; i < pairs.size(); ++i) {

@@ -6,7 +6,7 @@
 
 namespace depth_fusion {
 
-// An estimated pose and the true one of the same moment, in the truth's world.
+// Pairs an estimated pose with the true one of the same moment, both in the truth's world.
 struct PosePair {
   double stamp_s = 0.0;
   Pose T_W_estimate = Pose::Identity();  // aligned

@@ -45,8 +45,8 @@ RgbdFrame frameOf(const WallExperiment& experiment, int number) {
   return frame;
 }
 
-// Errors of the zero crossings nearest to the wall, by the column's place. Vertices on edges along z lie in a
-// column.
+// Finds the errors of the zero crossings nearest to the wall, by the column's place. Vertices on edges along
+// z lie in a column.
 std::map<std::pair<int, int>, double> columnErrors(const TriangleMesh& mesh, double z_m,
                                                    double voxel_size_m) {
   const double half_width_m = 0.5 * kCamera.width / kCamera.fx * z_m - kBorder_m;

@@ -9,8 +9,8 @@
 
 namespace depth_fusion {
 
-// What a frame shows. The sensor model says first_sigma_m; a filter that is told of the noise is given its
-// growth beyond that as weights.
+// Says what a frame shows. The sensor model says first_sigma_m; a filter that is told of the noise is given
+// its growth beyond that as weights.
 struct WallFrame {
   double z_m = 1.0;
   double sigma_m = 0.0;
@@ -34,18 +34,18 @@ struct WallError {
   size_t columns = 0;  // with a zero crossing
 };
 
-// The error of the surface after each measured frame.
+// Returns the error of the surface after each measured frame.
 std::vector<WallError> runWallExperiment(ComputeContext& compute, const WallExperiment& experiment,
                                          const TsdfFusionParameters& fusion);
 
-// The paper's case of growing noise: that of the default sensor model at a distance that grows evenly from 1
-// to 2 m.
+// Makes the paper's case of growing noise: the noise is that of the default sensor model at a distance that
+// grows evenly from 1 to 2 m.
 WallExperiment growingNoise();
 
-// Root of the mean square of the errors of the frames from `first` on.
+// Returns the root of the mean square of the errors of the frames from `first` on.
 double rootMeanSquare(const std::vector<WallError>& errors, size_t first);
 
-// The rule with the parameter that gives it the gain in the long run, at the sensor model's noise.
+// Returns the rule with the parameter that gives it the gain in the long run, at the sensor model's noise.
 TsdfFusionParameters filterOfGain(const std::string& rule, double gain, double sigma_m);
 
 }  // namespace depth_fusion

@@ -58,7 +58,7 @@ std::string millimetres(double metres) {
   return text;
 }
 
-// The largest magnitude, rounded up to whole millimetres.
+// Returns the largest magnitude, rounded up to whole millimetres.
 double limitOf(const cv::Mat& values_per_m) {
   float largest = 0.0f;
   for (const float value : cv::Mat_<float>(values_per_m))

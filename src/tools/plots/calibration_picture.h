@@ -5,7 +5,7 @@
 
 namespace depth_fusion {
 
-// Over the image: the systematic error before and after, and the correction; CV_8UC3 BGR.
+// Draws, over the image, the systematic error before and after, and the correction, as CV_8UC3 BGR.
 cv::Mat drawCalibration(const DepthCalibration& calibration);
 
 }  // namespace depth_fusion

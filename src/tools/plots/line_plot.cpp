@@ -33,7 +33,7 @@ std::string number(double value) {
   return text;
 }
 
-// 1, 2 or 5 times a power of ten, so that about six fit into the extent.
+// Returns 1, 2 or 5 times a power of ten, so that about six steps fit into the extent.
 double niceStep(double extent) {
   const double power = std::pow(10.0, std::floor(std::log10(extent / 6.0)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -50,7 +50,7 @@ struct Axis {
   double fractionOf(double value) const {
     return ((logarithmic ? std::log10(value) : value) - low) / (high - low);
   }
-  // Where lines are drawn across.
+  // Returns the values at which lines are drawn across.
   std::vector<double> ticks() const {
     std::vector<double> values;
     if (!logarithmic) {
@@ -107,7 +107,7 @@ void drawAxes(cv::Mat& canvas, const LinePlot& plot, const Axes& axes) {
   writeCentred(canvas, plot.y_label, {kFrame.x + 60, kFrame.y - 12});
 }
 
-// The upper corner with fewer points of the lines.
+// Finds the upper corner with fewer points of the lines.
 int legendColumn(const LinePlot& plot, const Axes& axes) {
   int on_left = 0, on_right = 0;
   for (const PlotLine& line : plot.lines) {

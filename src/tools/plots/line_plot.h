@@ -18,7 +18,8 @@ struct LinePlot {
   bool logarithmic = false;  // both axes; all points are positive
 };
 
-// CV_8UC3 BGR; both axes begin at 0, logarithmic ones before the least point. Throws Error without points.
+// Draws the lines as CV_8UC3 BGR. Both axes begin at 0, logarithmic ones before the least point. Throws Error
+// without points.
 cv::Mat draw(const LinePlot& plot);
 
 }  // namespace depth_fusion

@@ -25,7 +25,7 @@ void writeCentred(cv::Mat& canvas, const std::string& text, const cv::Point& cen
               kTextSize, kInk, 1, cv::LINE_AA);
 }
 
-// Text that reads upwards, its end at the point.
+// Writes text that reads upwards and ends at the point.
 void writeUpwards(cv::Mat& canvas, const std::string& text, const cv::Point& end) {
   int baseline = 0;
   const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kTextSize, 1, &baseline);

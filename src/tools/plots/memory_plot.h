@@ -7,7 +7,8 @@
 
 namespace depth_fusion {
 
-// A bar for the bytes of each row, over N/M; red over the limit. CV_8UC3 BGR. Throws Error without rows.
+// Draws a bar for the bytes of each row, over N/M, which is red where it is over the limit, as CV_8UC3 BGR.
+// Throws Error without rows.
 cv::Mat plotMemory(const ResolutionPlan& plan);
 
 }  // namespace depth_fusion

@@ -45,7 +45,7 @@ std::string number(const char* format, double value) {
   return text;
 }
 
-// 1, 2 or 5 times a power of ten, so that about six fit into the extent.
+// Returns 1, 2 or 5 times a power of ten, so that about six steps fit into the extent.
 double niceStep(double extent) {
   const double rough = extent / 6.0;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -75,7 +75,7 @@ cv::Scalar errorColor(double fraction) {
   return cv::Scalar(color.at<cv::Vec3b>(0, 0));
 }
 
-// One view in its square of the canvas, equal scale on both axes.
+// Draws one view in its square of the canvas, with equal scale on both axes.
 class Panel {
  public:
   Panel(cv::Mat& canvas, const cv::Point& corner, const View& view, const std::vector<PosePair>& pairs,

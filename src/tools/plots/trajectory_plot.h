@@ -7,7 +7,8 @@
 
 namespace depth_fusion {
 
-// Top view (x, y) and side view (x, z) in metres, coloured by the distance between both; CV_8UC3 BGR.
+// Draws the top view (x, y) and the side view (x, z) in metres, coloured by the distance between both
+// trajectories, as CV_8UC3 BGR.
 cv::Mat plotTrajectories(const TrajectoryError& error);
 
 }  // namespace depth_fusion

@@ -21,7 +21,7 @@ double phase(unsigned seed, int index) {
   return kTwoPi * static_cast<double>((hash ^ (hash >> 31)) >> 11) / 9007199254740992.0;
 }
 
-// x right, y down, z forward, with the world's z up.
+// The camera has x right, y down and z forward, with the world's z up.
 Pose lookAt(const Gaze& gaze) {
   const Vector3d forward = (gaze.target_W - gaze.eye_W).normalized();
   const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();

@@ -7,7 +7,7 @@
 
 namespace depth_fusion {
 
-// Smooth, quasi-periodic motion that depends on the seed alone.
+// Gives smooth, quasi-periodic motion that depends on the seed alone.
 class Sway {
  public:
   Sway(unsigned seed, double time_s) : seed_(seed), time_s_(time_s) {}
@@ -27,17 +27,18 @@ struct Gaze {
   double roll_rad = 0.0;     // about the optical axis; 0: upright
 };
 
-// Where the camera is and what it looks at. Walking and looking around have a time each, so that either can
-// be sped up alone.
+// Says where the camera is and what it looks at. Walking and looking around have a time each, so that either
+// can be sped up alone.
 using GazePath = std::function<Gaze(const Sway& walk, const Sway& look)>;
 
-// Times the path's own.
+// Speeds are factors on the path's own.
 struct HandSpeed {
   double walk = 1.0;
   double look = 1.0;
 };
 
-// The pose of a depth camera on the path, with a slight tremor of the hand, which speed leaves as it is.
+// Returns the pose of a depth camera on the path, with a slight tremor of the hand, which speed leaves as it
+// is.
 Pose handHeldPose(const GazePath& path, unsigned seed, const HandSpeed& speed, double time_s);
 
 struct Rates {
@@ -45,7 +46,7 @@ struct Rates {
   double turn_rad_s = 0.0;
 };
 
-// How fast the camera moves on the path at its own speed, without tremor.
+// Returns how fast the camera moves on the path at its own speed, without tremor.
 Rates ratesAt(const GazePath& path, unsigned seed, double time_s);
 
 }  // namespace depth_fusion

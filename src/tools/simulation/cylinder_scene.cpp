@@ -11,7 +11,7 @@ constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 constexpr double kWalk_m_s = 0.3;
 constexpr double kOrbit_m = 1.3;
 
-// Walks around the column, 3 m in 10 s, and looks at its foot.
+// The camera walks around the column, 3 m in 10 s, and looks at its foot.
 Gaze cylinderGaze(const Sway& walk, const Sway& look) {
   const double bearing_rad = (kWalk_m_s * walk.time_s() + 0.04 * walk(0, 4.0)) / kOrbit_m;
   const double orbit_m = kOrbit_m + 0.03 * walk(1, 5.0);

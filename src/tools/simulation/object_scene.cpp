@@ -44,7 +44,7 @@ std::vector<Primitive> tableWithThings() {
   };
 }
 
-// Once around the figure in 14 s, 0.3 to 0.6 m away from it.
+// The camera goes once around the figure in 14 s, 0.3 to 0.6 m away from it.
 Gaze objectGaze(const Sway& walk, const Sway& look) {
   const double bearing_rad = (25.0 * walk.time_s() + 10.0 * walk(0, 7.0)) * kRadPerDeg;
   const double radius_m = 0.36 + 0.06 * walk(1, 6.0);

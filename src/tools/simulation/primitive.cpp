@@ -87,7 +87,7 @@ Vector3d Primitive::normal(const Vector3d& p_W) const {
   return gradient.normalized();
 }
 
-// Half the size of the box along the axes of S that holds the solid.
+// Returns half the size of the box along the axes of S that holds the solid.
 Vector3d Primitive::extentInS() const {
   const double radius_m = half_size_m_.x(), reach_m = half_size_m_.z();
   switch (shape_) {

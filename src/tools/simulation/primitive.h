@@ -24,7 +24,7 @@ struct Material {
   bool shaded = true;     // false: as bright on every side
 };
 
-// Colour at a point (B, G, R in 0..255); the texture fills space, a surface cuts through it.
+// Returns the colour at a point (B, G, R in 0..255); the texture fills space, and a surface cuts through it.
 Eigen::Vector3d textureColor(const Material& material, const Eigen::Vector3d& p_W);
 
 enum class Shape {
@@ -43,13 +43,13 @@ class Primitive {
   Primitive(Shape shape, const Pose& T_W_S, const Eigen::Vector3d& half_size_m, const Material& material,
             double rounding_m = 0.0);
 
-  // Euclidean distance to the surface in metres, negative inside the solid.
+  // Returns the Euclidean distance to the surface in metres, negative inside the solid.
   double distance(const Eigen::Vector3d& p_W) const;
-  // Unit vector away from the surface: the gradient of distance().
+  // Returns the unit vector away from the surface, which is the gradient of distance().
   Eigen::Vector3d normal(const Eigen::Vector3d& p_W) const;
 
-  // Range at which a ray (of unit length, from free space) first meets the surface, if that is before
-  // max_range_m.
+  // Returns the range at which a ray (of unit length, from free space) first meets the surface, if that is
+  // before max_range_m.
   std::optional<double> firstHit(const Eigen::Vector3d& origin_W, const Eigen::Vector3d& ray_W,
                                  double max_range_m) const;
 
@@ -66,7 +66,7 @@ class Primitive {
 
   Eigen::Vector3d extentInS() const;
   double distanceInS(const Eigen::Vector3d& p_S) const;
-  // The part of a ray that can hold the first hit; empty if its end lies before its begin.
+  // Returns the part of a ray that can hold the first hit; it is empty if its end lies before its begin.
   Interval hitInterval(const Eigen::Vector3d& origin_S, const Eigen::Vector3d& ray_S) const;
 
   Shape shape_;
@@ -77,7 +77,7 @@ class Primitive {
   double rounding_m_;  // of a box's edges
 };
 
-// Shorthands for building scenes. Positions and full sizes in metres; `yaw_rad` turns about z.
+// These are shorthands for building scenes. Positions and full sizes are in metres; `yaw_rad` turns about z.
 Primitive box(const Eigen::Vector3d& centre_W, const Eigen::Vector3d& size_m, const Material& material,
               double yaw_rad = 0.0, double rounding_m = 0.0);
 Primitive room(const Eigen::Vector3d& centre_W, const Eigen::Vector3d& size_m, const Material& material);
@@ -86,7 +86,7 @@ Primitive cylinder(const Eigen::Vector3d& bottom_W, const Eigen::Vector3d& top_W
                    const Material& material);
 Primitive capsule(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, double radius_m,
                   const Material& material);
-// A ring around axis_W.
+// Makes a ring around axis_W.
 Primitive torus(const Eigen::Vector3d& centre_W, const Eigen::Vector3d& axis_W, double radius_m,
                 double tube_radius_m, const Material& material);
 Primitive plane(const Eigen::Vector3d& point_W, const Eigen::Vector3d& normal_W, const Material& material);

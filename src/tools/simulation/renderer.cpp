@@ -27,7 +27,8 @@ Hit trace(const Primitives& primitives, const Vector3d& origin_W, const Vector3d
   return nearest;
 }
 
-// Light from the ceiling's middle and all around: fixed in W, so that colours do not change with the view.
+// Light comes from the ceiling's middle and from all around. It is fixed in W, so that colours do not change
+// with the view.
 Vector3d shade(const Vector3d& color_bgr, const Vector3d& p_W, const Vector3d& normal_W) {
   const Vector3d light_W(0.3, -0.2, 2.2);
   const double diffuse = std::max(0.0, normal_W.dot((light_W - p_W).normalized()));
@@ -51,7 +52,8 @@ class TileRenderer {
     return Vector3d((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1.0).normalized();
   }
 
-  // The primitives that rays of the tile can hit: those whose bounding sphere meets the cone around the tile.
+  // Finds the primitives that rays of the tile can hit: those whose bounding sphere meets the cone around the
+  // tile.
   Primitives primitivesIn(const cv::Rect& tile) const {
     const Vector3d axis_D = ray_D(tile.x + tile.width / 2.0, tile.y + tile.height / 2.0);
     const Vector3d axis_W = T_W_D_.linear() * axis_D;

@@ -135,7 +135,7 @@ void addLooseThings(Solids& solids) {
   solids.push_back(box({1.3, 1.2, 0.15}, {0.4, 0.35, 0.4}, {{60, 160, 180}, Pattern::kTiles, 0.1, 0.7}, 0.3));
 }
 
-// Walks about the middle at 0.3 m/s and looks around at 25 deg/s, once around in 14 s.
+// The camera walks about the middle at 0.3 m/s and looks around at 25 deg/s, once around in 14 s.
 Gaze roomGaze(const Sway& walk, const Sway& look) {
   Gaze gaze;
   gaze.eye_W = {0.8 * walk(0, 13.0), 0.4 * walk(1, 9.0), 1.55 + 0.1 * walk(2, 7.0)};

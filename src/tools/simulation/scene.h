@@ -11,8 +11,8 @@ class Scene {
  public:
   explicit Scene(std::vector<Primitive> primitives) : primitives_(std::move(primitives)) {}
 
-  // Signed distance to the surface in metres, positive in free space. Exact there; inside, exact wherever
-  // solids do not overlap and never too large in magnitude.
+  // Returns the signed distance to the surface in metres, positive in free space. It is exact there; inside
+  // it is exact wherever solids do not overlap, and never too large in magnitude.
   double distance(const Eigen::Vector3d& p_W) const;
 
   const std::vector<Primitive>& primitives() const { return primitives_; }

@@ -1,4 +1,4 @@
-// The built-in scenes by name. To add one: a function that returns a SimulatedScene, and a row in
+// The built-in scenes by name. A new one is a function that returns a SimulatedScene, and a row in
 // scene_library.cpp.
 #pragma once
 
@@ -31,7 +31,8 @@ SimulatedScene makeScene(const std::string& name);
 
 // A simulated recording's folder says which scene it shows.
 void writeSceneName(const std::string& folder, const std::string& name);
-// The scene's name, from a folder written by `simulate` or given as it is. Throws Error as makeScene() does.
+// Returns the scene's name, from a folder written by `simulate` or given as it is. Throws Error as
+// makeScene() does.
 std::string findSceneName(const std::string& folder_or_name);
 
 }  // namespace depth_fusion

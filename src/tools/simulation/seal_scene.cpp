@@ -23,7 +23,7 @@ Vector3d aroundAxis(double x_m, double radius_m, double bearing_rad) {
   return {x_m, radius_m * std::cos(bearing_rad), radius_m * std::sin(bearing_rad)};
 }
 
-// A knob of 44 mm with beads spread evenly over it, a few tenths of a millimetre to a millimetre high.
+// Makes a knob of 44 mm with beads spread evenly over it, a few tenths of a millimetre to a millimetre high.
 void addKnob(Solids& solids) {
   constexpr int kBeads = 170;
   const double radius_m = 0.022;
@@ -37,7 +37,7 @@ void addKnob(Solids& solids) {
   }
 }
 
-// A fluted shaft with two bands of bosses.
+// Makes a fluted shaft with two bands of bosses.
 void addShaft(Solids& solids) {
   const double radius_m = 0.016;
   solids.push_back(cylinder({-0.04, 0, 0}, {0.03, 0, 0}, radius_m, kHorn));
@@ -65,11 +65,11 @@ void addNeck(Solids& solids) {
   }
 }
 
-// 34 mm wide, at x = 75 mm.
+// Makes the face, 34 mm wide, at x = 75 mm.
 void addFace(Solids& solids) { solids.push_back(cylinder({0.07, 0, 0}, {0.075, 0, 0}, 0.017, kPrint)); }
 
-// Around the seal's middle in 12 s at 0.2 to 0.25 m, above one side and below the other, slowly where it
-// looks at the face head-on.
+// The camera goes around the seal's middle in 12 s at 0.2 to 0.25 m, above one side and below the other,
+// slowly where it looks at the face head-on.
 Gaze sealGaze(const Sway& walk, const Sway& look) {
   const double phase_rad = (30.0 * walk.time_s() - 100.0) * kRadPerDeg;
   const double bearing_rad = phase_rad - 0.9 * std::sin(phase_rad);

@@ -7,7 +7,7 @@
 namespace depth_fusion {
 namespace {
 
-// Normal noise of unit variance for every pixel, correlated over noise_width_px.
+// Draws normal noise of unit variance for every pixel, correlated over noise_width_px.
 cv::Mat correlatedNoise(const cv::Size& size, double noise_width_px, uint64_t seed) {
   const int radius = static_cast<int>(std::ceil(3.0 * noise_width_px));
   cv::Mat noise(size + cv::Size(2 * radius, 2 * radius), CV_32FC1);
@@ -60,7 +60,7 @@ class RowSensor {
     return false;
   }
 
-  // What is left of the axial sigma for noise other than the quantisation's.
+  // Returns what the quantisation leaves of the axial sigma for other noise.
   double unquantisedSigma(double z_m) const {
     if (sensor_.disparity_step_px <= 0.0) return sensor_.axialSigma(z_m);
     const double step_m = z_m * z_m / sensor_.disparity_pxm * sensor_.disparity_step_px;

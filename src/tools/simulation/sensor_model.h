@@ -12,7 +12,7 @@ struct SensorModel {
   double depth_unit_m = 0.0002;  // of the 16-bit depth that recordings hold
   double min_range_m = 0.0;
   double max_range_m = 0.0;
-  // Axial noise, that of quantisation included: sigma = base + growth * (z - from)^2.
+  // The axial noise, that of quantisation included, has sigma = base + growth * (z - from)^2.
   double sigma_base_m = 0.0;
   double sigma_growth_per_m = 0.0;
   double sigma_from_m = 0.0;
@@ -29,20 +29,21 @@ struct SensorModel {
   }
 };
 
-// Structured light of the Kinect v1 kind, 0.4 to 5 m. Sigma and correlation are about those of real
+// Models structured light of the Kinect v1 kind, 0.4 to 5 m. Sigma and correlation are about those of real
 // recordings (TUM freiburg1, 7-Scenes redkitchen), whose neighbours correlate by 0.55, 0.35, 0.2 and 0.1 at 1
 // to 4 pixels.
 SensorModel kinectSensor();
-// A close-range precision scanner: sigma 0.1 mm at 0.3 m, 0.15 to 1 m.
+// Models a close-range precision scanner with a sigma of 0.1 mm at 0.3 m and a range of 0.15 to 1 m.
 SensorModel precisionSensor();
 
-// A scanner of small parts: sigma 0.05 to 0.07 mm at 0.2 to 0.5 m, 22 degrees of view.
+// Models a scanner of small parts with a sigma of 0.05 to 0.07 mm at 0.2 to 0.5 m and 22 degrees of view.
 SensorModel partScanner();
 
-// Depth as the sensor gives it (CV_32FC1, metres, 0 = none). The same seed gives the same image, bit for bit.
+// Returns depth as the sensor gives it (CV_32FC1, metres, 0 = none). The same seed gives the same image, bit
+// for bit.
 cv::Mat senseDepth(const RenderedView& view, const SensorModel& sensor, uint64_t seed);
 
-// The view's depth within the sensor's range, without noise.
+// Returns the view's depth within the sensor's range, without noise.
 cv::Mat idealDepth(const RenderedView& view, const SensorModel& sensor);
 
 }  // namespace depth_fusion

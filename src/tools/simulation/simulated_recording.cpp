@@ -24,8 +24,8 @@ void checkOptions(const SimulationOptions& options, const SimulatedScene& scene)
   check(options.intrinsics.valid(), "the intrinsics of a simulated recording must be positive");
 }
 
-// The speed at which the fastest moment of a recording has the given rate. A faster hand gets further along
-// the path, so that it may meet a faster part of it.
+// Finds the speed at which the fastest moment of a recording has the given rate. A faster hand gets further
+// along the path, so that it may meet a faster part of it.
 double speedForPeak(const std::function<double(double)>& rate_at, double peak_rate, double duration_s) {
   const double step_s = duration_s / 1000.0;
   double fastest = 0.0, path_time_s = 0.0;

@@ -24,7 +24,8 @@ class SimulatedRecording : public Recording {
   // Throws Error for an unknown scene or a value that makes no sense.
   explicit SimulatedRecording(const SimulationOptions& options);
 
-  // Depth as CV_32FC1 in metres, colour as BGR, the exact pose. The same options give the same bits.
+  // Frames have depth as CV_32FC1 in metres, colour as BGR and the exact pose. The same options give the same
+  // bits.
   std::optional<RgbdFrame> next() override;
   size_t frameCount() const override { return static_cast<size_t>(options_.frames); }
   std::string description() const override;

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-// A value in [-1, 1] for a lattice cell (PCG hash).
+// Returns a value in [-1, 1] for a lattice cell (PCG hash).
 double cellValue(const Vector3i& cell) {
   uint32_t hash = static_cast<uint32_t>(cell.x()) * 73856093u ^ static_cast<uint32_t>(cell.y()) * 19349663u ^
                   static_cast<uint32_t>(cell.z()) * 83492791u;
@@ -26,7 +26,7 @@ Vector3i cellOf(const Vector3d& p) {
           static_cast<int>(std::floor(p.z()))};
 }
 
-// Lattice values joined smoothly (trilinear with eased fractions).
+// Joins lattice values smoothly (trilinear with eased fractions).
 double smoothNoise(const Vector3d& p) {
   const Vector3i cell = cellOf(p);
   const Vector3d fraction = p - cell.cast<double>();
@@ -52,7 +52,7 @@ double wood(const Vector3d& p) {
   return 0.7 * std::sin(9.0 * smoothNoise(along_grain)) + 0.4 * smoothNoise(6.0 * p);
 }
 
-// Spots of every size, each octave with steep sides and turned against the last. The finer ones are the
+// Makes spots of every size; each octave has steep sides and is turned against the last. The finer ones are
 // stronger, so that small patches differ as much as large ones.
 double mottle(Vector3d p) {
   static const Eigen::Matrix3d kTurn =
@@ -68,7 +68,7 @@ double mottle(Vector3d p) {
   return value;
 }
 
-// The pattern's brightness about 0, mostly within [-1, 1].
+// Returns the pattern's brightness about 0, mostly within [-1, 1].
 double brightness(Pattern pattern, const Vector3d& p) {
   switch (pattern) {
     case Pattern::kPlain:

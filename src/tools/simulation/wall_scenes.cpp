@@ -17,7 +17,7 @@ const Material kCarpet{{110, 105, 135}, Pattern::kMottle, 0.2, 0.5};
 
 Primitive wall() { return plane({0, kWallY_m, 0}, {0, -1, 0}, kPlaster); }
 
-// Walks along x from x = -1.5 m, 3 m in 10 s, facing the wall with the given pitch.
+// The camera walks along x from x = -1.5 m, 3 m in 10 s, and faces the wall with the given pitch.
 Gaze alongWall(const Sway& walk, const Sway& look, const Vector3d& eye_W, double pitch_deg) {
   Gaze gaze;
   gaze.eye_W = eye_W + Vector3d(kWalk_m_s * walk.time_s() - 1.5 + 0.04 * walk(0, 4.0), 0.04 * walk(1, 5.0),
