@@ -1,5 +1,5 @@
-// Bookkeeping of blocks. A work-item is one block (assign_blocks, withdraw_requests) or as many bytes of it as
-// 16 voxels have (clear_blocks).
+// Bookkeeping of blocks. A work-item is one block (assign_blocks, withdraw_requests) or as many bytes of it
+// as 16 voxels have (clear_blocks).
 //   offsets        slot or BLOCK_EMPTY a block of the window
 //   block_indices  index and in-use flag a slot
 //   requests       index a block

@@ -14,8 +14,8 @@ typedef struct {
   float8 lowest, highest;
 } Extents;
 
-// The pixels that boxes along the axes of frame D cover. A box that reaches behind the camera covers what its part ahead of it
-// covers.
+// The pixels that boxes along the axes of frame D cover. A box that reaches behind the camera covers what its
+// part ahead of it covers.
 inline Extents pixel_extents(float8 centre, float reach, const Extents depth, float focal_length,
                              float image_centre) {
   const float8 near = focal_length / max(depth.lowest, (float8)(1e-3f)), far = focal_length / depth.highest;

@@ -1,12 +1,6 @@
 #include "depth_fusion/preprocessing/depth_range.h"
 
-#include <algorithm>
-
 namespace depth_fusion {
-
-DepthRange depthRange(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor) {
-  return {parameters.min_range_m, std::min(parameters.max_range_m, sensor.maxRange_m())};
-}
 
 cv::Mat depthInRange(const RgbdFrame& frame, const DepthRange& range) {
   cv::Mat mask;

@@ -36,4 +36,8 @@ void validateRange(const PreprocessingParameters& parameters, const DepthSensorP
         "depth_sensor/max_sigma_m");
 }
 
+DepthRange depthRange(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor) {
+  return {parameters.min_range_m, std::min(parameters.max_range_m, sensor.maxRange_m())};
+}
+
 }  // namespace depth_fusion

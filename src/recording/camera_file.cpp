@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "depth_fusion/common/error.h"
 #include "common/io/text_file.h"
+#include "depth_fusion/common/error.h"
 
 namespace depth_fusion {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "depth_fusion/common/error.h"
 #include "common/io/text_file.h"
+#include "depth_fusion/common/error.h"
 
 namespace depth_fusion {
 namespace {

@@ -1,11 +1,11 @@
 // Recordings in the layout of the TUM RGB-D benchmark.
 #include <filesystem>
 
+#include "common/io/image_file.h"
 #include "depth_fusion/common/error.h"
 #include "recording/camera_file.h"
 #include "recording/color_or_problem.h"
 #include "recording/folder_recording.h"
-#include "common/io/image_file.h"
 #include "recording/recording_intrinsics.h"
 #include "recording/timed_files.h"
 

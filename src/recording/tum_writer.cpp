@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "common/io/image_file.h"
+#include "common/io/text_file.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/recording/recording_writer.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "recording/camera_file.h"
 #include "recording/depth_units.h"
-#include "common/io/image_file.h"
-#include "common/io/text_file.h"
 
 namespace depth_fusion {
 namespace {

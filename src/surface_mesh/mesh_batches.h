@@ -19,13 +19,13 @@ struct MeshBlock {
   bool lends_only = false;  // its vertices, to other blocks' triangles; it emits none itself
 };
 
-// All the blocks of the map along the Morton curve, on which neighbours are mostly near each other.
+// Lists all the blocks of the map along the Morton curve, on which neighbours are mostly near each other.
 std::vector<MeshBlock> mortonOrderedBlocks(const BlockMap& map);
 
 MeshBlock meshBlock(const BlockMap& map, const BlockIndex& index);
 void sortAlongMortonCurve(std::vector<MeshBlock>& blocks);
 
-// Index and first vertex; the rest is for the batch to fill in.
+// Sets index and first vertex; the batch fills in the rest.
 MeshBlockArgs blockArgs(const BlockMap& map, const MeshBlock& block);
 
 struct BatchLimits {

@@ -8,7 +8,7 @@
 namespace depth_fusion {
 namespace {
 
-// First pass: how many vertices and triangles each block has.
+// The first pass counts the vertices and triangles of each block.
 void countBlocks(SurfaceMeshKernels& kernels, const BlockMap& map, std::vector<MeshBlock>& blocks) {
   std::vector<MeshBlockArgs> batch;
   for (size_t begin = 0; begin < blocks.size(); begin += batch.size()) {
@@ -42,7 +42,7 @@ MeshSize numberVertices(std::vector<MeshBlock>& blocks) {
   return size;
 }
 
-// Second pass: the mesh itself. Returns the number of batches.
+// The second pass emits the mesh itself. Returns the number of batches.
 size_t emitBlocks(SurfaceMeshKernels& kernels, const BlockMap& map, const std::vector<MeshBlock>& blocks,
                   bool colored, MeshSink& sink) {
   MeshBatcher batcher(map, blocks, kernels.limits());

@@ -12,11 +12,11 @@ constexpr int kListCapacity = 65536;  // blocks
 
 // Sampling points lie at most half a block apart across the rays, at a depth of 3 m, and along them.
 SelectionArgs selectionArgs(const MapParameters& map, const CameraIntrinsics& camera) {
-  const float half_block_m = 0.5f * map.voxel_size_m * map.block_size;
+  const float half_block_m = 0.5f * map.voxel_size_m * static_cast<float>(map.block_size);
   const float half_block_at_1m_px = half_block_m * static_cast<float>(camera.fx);
   SelectionArgs args{};
   args.stride_px = std::clamp(static_cast<int>(half_block_at_1m_px / 3.0f), 1, 4);
-  args.dense_from_m = half_block_at_1m_px / (2.0f * args.stride_px);
+  args.dense_from_m = half_block_at_1m_px / (2.0f * static_cast<float>(args.stride_px));
   args.band_samples = static_cast<int>(std::ceil(2.0f * map.truncation_m / half_block_m)) + 1;
   args.capacity = kListCapacity;
   return args;

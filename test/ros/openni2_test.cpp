@@ -4,11 +4,11 @@
 
 #include <cstring>
 
-#include "tools/evaluation/mesh_error.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "support/openni2_graph.h"
+#include "tools/evaluation/mesh_error.h"
 
 namespace depth_fusion {
 namespace {

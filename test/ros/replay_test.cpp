@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <thread>
 
-#include "tools/evaluation/mesh_error.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "ros/bags/open_recording.h"
 #include "support/diagnostics.h"
 #include "support/temporary_folder.h"
+#include "tools/evaluation/mesh_error.h"
 
 namespace depth_fusion {
 namespace {

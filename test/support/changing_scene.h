@@ -7,9 +7,9 @@
 #include <map>
 #include <numeric>
 
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "tools/evaluation/mesh_error.h"
-#include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "tools/simulation/camera_path.h"
 #include "tools/simulation/sensor_model.h"
 

@@ -6,9 +6,9 @@
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
-#include "tools/simulation/renderer.h"
 #include "support/simulated_frames.h"
 #include "support/test_compute.h"
+#include "tools/simulation/renderer.h"
 
 namespace depth_fusion {
 

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/simulation/simulated_recording.h"
 #include "ros/conversions/messages.h"
 #include "support/simulated_frames.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 

@@ -51,7 +51,7 @@ inline void setBlockStates(BlockMap& map) {
   map.blockStates().write(states);
 }
 
-// A map with the surface in the whole window, centred on the point.
+// Makes a map with the surface in the whole window, centred on the point.
 inline std::unique_ptr<BlockMap> makeMap(const MapParameters& parameters, const SignedDistance& distance,
                                          const Eigen::Vector3d& centre_W = Eigen::Vector3d::Zero()) {
   auto map = std::make_unique<BlockMap>(compute(), parameters);

@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
-#include "tools/evaluation/trajectory_error.h"
 #include "support/synthetic_fusion.h"
+#include "tools/evaluation/trajectory_error.h"
 
 namespace depth_fusion {
 namespace {

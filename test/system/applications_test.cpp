@@ -1,8 +1,8 @@
 // The apps as a user runs them, one after the other.
 #include <gtest/gtest.h>
 
-#include "depth_fusion/recording/trajectory_file.h"
 #include "common/io/text_file.h"
+#include "depth_fusion/recording/trajectory_file.h"
 #include "recording/timed_files.h"
 #include "support/apps.h"
 

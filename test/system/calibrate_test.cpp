@@ -4,11 +4,11 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tools/evaluation/trajectory_error.h"
 #include "depth_fusion/recording/recording_writer.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "support/apps.h"
 #include "support/faulty_sensor.h"
+#include "tools/evaluation/trajectory_error.h"
 
 namespace depth_fusion {
 namespace {

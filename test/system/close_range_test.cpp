@@ -4,11 +4,11 @@
 
 #include <cstdio>
 
-#include "tools/evaluation/trajectory_error.h"
 #include "shared/types.h"
 #include "support/map_contents.h"
 #include "support/synthetic_fusion.h"
 #include "support/test_compute.h"
+#include "tools/evaluation/trajectory_error.h"
 
 namespace depth_fusion {
 namespace {

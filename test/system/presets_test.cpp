@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "tools/evaluation/mesh_error.h"
 #include "tools/evaluation/trajectory_error.h"
-#include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {

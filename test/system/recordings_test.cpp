@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "tools/evaluation/trajectory_error.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "support/apps.h"
 #include "support/real_data.h"
+#include "tools/evaluation/trajectory_error.h"
 
 namespace depth_fusion {
 namespace {

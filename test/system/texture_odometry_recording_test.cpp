@@ -3,11 +3,11 @@
 
 #include <filesystem>
 
-#include "tools/evaluation/trajectory_error.h"
 #include "depth_fusion/recording/recording.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/texture_odometry/texture_odometry.h"
 #include "support/real_data.h"
+#include "tools/evaluation/trajectory_error.h"
 
 namespace depth_fusion {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "depth_fusion/frames/depth_sensor.h"
 #include "depth_fusion/geometry/camera_intrinsics.h"
 #include "depth_fusion/geometry/pose.h"
-#include "depth_fusion/frames/depth_sensor.h"
 
 namespace depth_fusion {
 

@@ -6,7 +6,6 @@
 #include "depth_fusion/icp_tracking/icp_tracking_parameters.h"
 #include "depth_fusion/map/map_parameters.h"
 #include "depth_fusion/model_view/model_view_parameters.h"
-#include "depth_fusion/preprocessing/depth_range.h"
 #include "depth_fusion/preprocessing/preprocessing_parameters.h"
 #include "depth_fusion/registration/registration_parameters.h"
 #include "depth_fusion/relocalisation/relocalisation_parameters.h"

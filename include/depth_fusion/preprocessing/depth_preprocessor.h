@@ -30,7 +30,7 @@ class DepthPreprocessor {
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity = Vector6d::Zero());
   // The same as a step of a frame's way: it is timed, and done when the call returns.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity, StageTimers& timers);
-  // The last result, valid and unchanged for as long as it is held.
+  // Returns the last result, which stays valid and unchanged for as long as it is held.
   std::shared_ptr<const DepthFrame> result() const { return results_.current(); }
 
  private:

@@ -1,4 +1,4 @@
-// The depth that is used of a frame.
+// The pixels of a frame whose depth is in range.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,15 +7,6 @@
 #include "depth_fusion/preprocessing/preprocessing_parameters.h"
 
 namespace depth_fusion {
-
-// Nearer and farther depth is left out by every stage.
-struct DepthRange {
-  float min_m;
-  float max_m;
-};
-
-// The range that is asked for, as far as the sensor's noise allows.
-DepthRange depthRange(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
 
 // A mask of the frame's pixels whose depth is in range.
 cv::Mat depthInRange(const RgbdFrame& frame, const DepthRange& range);

@@ -24,4 +24,13 @@ struct PreprocessingParameters {
 // Throws Error if a parameter lies outside its range, or if no depth lies in the range of both.
 void validateRange(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
 
+// Nearer and farther depth is left out by every stage.
+struct DepthRange {
+  float min_m;
+  float max_m;
+};
+
+// The range that is asked for, as far as the sensor's noise allows.
+DepthRange depthRange(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
+
 }  // namespace depth_fusion

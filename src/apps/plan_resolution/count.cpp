@@ -36,7 +36,7 @@ std::unique_ptr<DepthPreprocessor> preprocessorOf(const RgbdFrame& frame, Comput
                                              parameters.depth_sensor);
 }
 
-// Block selection for some of the rows, frame by frame.
+// Selects blocks for some of the rows, frame by frame.
 class SelectionPass {
  public:
   SelectionPass(const CountingOptions& options, ComputeContext& compute, PlanRow* begin, PlanRow* end)

@@ -1,6 +1,7 @@
 #include "ros/conversions/image_conversions.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <opencv2/imgproc.hpp>

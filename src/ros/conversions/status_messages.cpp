@@ -1,5 +1,7 @@
 #include "ros/conversions/status_messages.h"
 
+#include <algorithm>
+
 namespace depth_fusion {
 
 using diagnostic_msgs::DiagnosticStatus;

@@ -3,6 +3,7 @@
 
 #include <depth_fusion/FrameAccount.h>
 
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <string>

@@ -1,5 +1,6 @@
 #include "ros/in_process/fusion_link.h"
 
+#include <chrono>
 #include <utility>
 
 namespace depth_fusion {

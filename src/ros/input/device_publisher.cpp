@@ -1,5 +1,6 @@
 #include "ros/input/device_publisher.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "depth_fusion/common/error.h"

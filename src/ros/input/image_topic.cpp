@@ -1,5 +1,7 @@
 #include "ros/input/image_topic.h"
 
+#include <cstdint>
+
 namespace depth_fusion {
 namespace {
 

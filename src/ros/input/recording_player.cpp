@@ -2,6 +2,8 @@
 
 #include <rosgraph_msgs/Clock.h>
 
+#include <cstdint>
+
 #include "depth_fusion/common/error.h"
 #include "ros/conversions/messages.h"
 

@@ -1,6 +1,7 @@
 #include "ros/output/pose_publisher.h"
 
 #include <boost/make_shared.hpp>
+#include <cstdint>
 
 #include "depth_fusion/common/error.h"
 #include "ros/conversions/messages.h"

@@ -6,7 +6,7 @@
 namespace depth_fusion {
 namespace {
 
-// Mean of |n_x| + |n_y| + |n_z| over all unit normals: the extent of a cube of edge 1 along them.
+// The mean of |n_x| + |n_y| + |n_z| over all unit normals is the mean extent of a cube of edge 1 along them.
 constexpr double kMeanCubeExtent = 1.5;
 
 MapParameters withSmallestPool(MapParameters map) {

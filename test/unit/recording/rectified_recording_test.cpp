@@ -4,9 +4,9 @@
 #include <fstream>
 #include <opencv2/calib3d.hpp>
 
+#include "common/io/text_file.h"
 #include "depth_fusion/recording/recording_writer.h"
 #include "depth_fusion/registration/registered_recording.h"
-#include "common/io/text_file.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "support/test_compute.h"

@@ -2,9 +2,9 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/io/text_file.h"
 #include "depth_fusion/recording/recording.h"
 #include "depth_fusion/recording/trajectory_file.h"
-#include "common/io/text_file.h"
 #include "support/expect_error.h"
 #include "support/real_data.h"
 #include "support/temporary_folder.h"

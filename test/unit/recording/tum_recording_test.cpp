@@ -3,9 +3,9 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/io/text_file.h"
 #include "depth_fusion/recording/recording.h"
 #include "depth_fusion/recording/recording_writer.h"
-#include "common/io/text_file.h"
 #include "support/expect_error.h"
 #include "support/real_data.h"
 #include "support/temporary_folder.h"

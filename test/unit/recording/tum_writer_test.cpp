@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "common/io/text_file.h"
 #include "depth_fusion/recording/recording.h"
 #include "depth_fusion/recording/recording_writer.h"
 #include "depth_fusion/recording/trajectory_file.h"
-#include "common/io/text_file.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "support/test_frames.h"

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/simulation/simulated_recording.h"
 #include "depth_fusion/texture_odometry/texture_odometry.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {

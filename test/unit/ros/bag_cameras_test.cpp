@@ -1,7 +1,7 @@
 #include <tf2_msgs/TFMessage.h>
 
-#include "ros/conversions/messages.h"
 #include "ros/bags/open_recording.h"
+#include "ros/conversions/messages.h"
 #include "support/bag_fixture.h"
 #include "support/expect_error.h"
 
