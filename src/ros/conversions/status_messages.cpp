@@ -60,7 +60,8 @@ void diagnose(const TrackerStatus& tracker, const std::string& problem, const st
 
 void diagnose(const MapStatus& map, const std::string& problem,
               diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const double used = static_cast<double>(map.blocks) / std::max<double>(1.0, map.blocks + map.blocks_free);
+  const double used =
+      static_cast<double>(map.blocks) / std::max(1.0, static_cast<double>(map.blocks + map.blocks_free));
   if (!problem.empty()) {
     status.summary(DiagnosticStatus::WARN, problem);
   } else if (map.blocks_left_out > 0) {
