@@ -3,6 +3,7 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include "depth_fusion/surface_mesh/surface_mesh.h"
 #include "ros/in_process/frames.h"
 #include "ros/in_process/shared_map.h"
 #include "support/diagnostics.h"
@@ -90,8 +91,11 @@ class UnregisteredDepth : public testing::Test {
     EXPECT_LT(error.translation().norm(), 0.005);
     EXPECT_LT(rotationAngle(error), 0.005);
     const auto map = findMap(graph_.resolve("tsdf_fusion"));
-    TriangleMesh mesh;
-    exportSurfaceMesh(*map->compute, map->map, mesh);
+    const TriangleMesh mesh = map->locked([&](FusedMap& fused) {
+      TriangleMesh surface;
+      exportSurfaceMesh(*map->compute, fused.map(), surface);
+      return surface;
+    });
     const SimulatedRecording room{SimulationOptions()};
     const MeshError surface = compareMesh(mesh, T_W_first * found.front().inverse(), room.scene().surface);
     EXPECT_GT(surface.area_m2, 2.0);

@@ -68,7 +68,7 @@ TrackingResult track(const Sight& sight, const ModelView& view, const Pose& T_W_
                      const IcpTrackingParameters& parameters = {}) {
   IcpTracker tracker(compute(), parameters, view.camera);
   StageTimers timers;
-  return tracker.track(sight.depth(), view, {T_W_D_prior, std::nullopt}, timers);
+  return tracker.track(sight.depth(), view, {T_W_D_prior, std::nullopt, ""}, timers);
 }
 
 void expectLost(const TrackingResult& result, const std::string& reason) {
@@ -282,7 +282,7 @@ TEST(IcpTracker, PosesStayOrthonormalOverManyFrames) {
   const Sight sight(camera, frameOfRoom(camera, start));
   ModelView view = sight.asView(start);
   for (int i = 0; i < 200; ++i) {
-    const TrackingResult result = tracker.track(sight.depth(), view, {view.T_W_D, std::nullopt}, timers);
+    const TrackingResult result = tracker.track(sight.depth(), view, {view.T_W_D, std::nullopt, ""}, timers);
     ASSERT_EQ(result.status, TrackingStatus::kTracking) << i << " " << result.reason;
     view.T_W_D = result.T_W_D;
   }

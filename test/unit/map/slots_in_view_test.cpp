@@ -87,7 +87,7 @@ TEST_F(SlotsInViewOfTwoPlaces, FollowBlocksThatComeAndGo) {
   EXPECT_EQ(groupsSeen(0.0), std::set<int>());
   EXPECT_EQ(groupsSeen(0.5 * M_PI), (std::set<int>{0, 1}));
   const std::unique_ptr<BlockMap> copy = map_.snapshot({kTsdfLayer});
-  EXPECT_EQ(copy->groupBoxes().size(), map_.slots().groupBoxes().size());
+  EXPECT_EQ(copy->slots().groupBoxes().size(), map_.slots().groupBoxes().size());
   map_.reset(Eigen::Vector3d::Zero());
   EXPECT_EQ(groupsSeen(M_PI), std::set<int>());
 }
