@@ -1,6 +1,12 @@
 """How the build folder says that the sources are compiled, without the precompiled headers."""
 import json
+import re
 import shlex
+import shutil
+import subprocess
+
+# Other versions of clang-format and clang-tidy see some lines otherwise.
+CLANG_VERSION = "14"
 
 
 class NotConfigured(Exception):
@@ -38,3 +44,12 @@ def shared_flags(entries):
             elif argument.startswith(("-I", "-D")) and not argument.endswith("_EXPORTS"):
                 flags[(argument,)] = None
     return [part for flag in flags for part in flag]
+
+
+def version_of(program):
+    """The major version of an installed LLVM program, or None."""
+    if not shutil.which(program):
+        return None
+    text = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    found = re.search(r"version (\d+)", text)
+    return found.group(1) if found else None

@@ -1,28 +1,18 @@
 """Every source is formatted as .clang-format says."""
 import re
-import shutil
 import subprocess
 
+from walls import commands
 from walls.tree import Result
 
-# Another version formats some lines otherwise.
-VERSION = "14"
 CHUNK = 60
 
 
-def installed_version():
-    if not shutil.which("clang-format"):
-        return None
-    text = subprocess.run(["clang-format", "--version"], capture_output=True, text=True, check=True).stdout
-    found = re.search(r"version (\d+)", text)
-    return found.group(1) if found else None
-
-
 def check(tree, _):
-    version = installed_version()
-    if version != VERSION:
+    version = commands.version_of("clang-format")
+    if version != commands.CLANG_VERSION:
         installed = f"version {version}" if version else "none"
-        return Result([], f"skipped, for the sources are formatted by clang-format {VERSION}, and installed is {installed}")
+        return Result([], f"skipped, for the sources are formatted by clang-format {commands.CLANG_VERSION}, and installed is {installed}")
     paths = tree.files()
     problems = []
     for i in range(0, len(paths), CHUNK):

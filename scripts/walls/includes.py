@@ -27,6 +27,8 @@ def floor_problem(path, include):
     folder, other = layers.folder_of(path), layers.folder_of(include.path)
     if folder == other:
         return None
+    if folder.startswith("ros/") and other.startswith("tools/"):
+        return f"{folder} includes {include.name} of the workshop, which no robot loads"
     floor, other_floor = layers.floor_of(folder), layers.floor_of(other)
     if floor is None or other_floor is None:
         return f"the folder {folder if floor is None else other} has no floor; give it one in scripts/walls/layers.py"

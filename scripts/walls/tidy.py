@@ -4,7 +4,6 @@ import concurrent.futures
 import json
 import os
 import re
-import shutil
 import subprocess
 import time
 
@@ -17,6 +16,9 @@ PROBLEM = re.compile(r"^(\S+?:\d+):\d+: (?:warning|error): (.*)$", re.M)
 def write_commands(entries, folder):
     """For clang, which cannot read the compiler's precompiled headers."""
     folder.mkdir(parents=True, exist_ok=True)
+    # What is a warning, .clang-tidy says; clang's -Wconversion is another than the compiler's.
+    for entry in entries:
+        entry["arguments"] = [argument for argument in entry["arguments"] if not argument.startswith("-W")]
     (folder / "compile_commands.json").write_text(json.dumps(entries))
 
 
@@ -30,8 +32,10 @@ def tidy(tree, path, folder):
 
 
 def check(tree, arguments):
-    if not shutil.which("clang-tidy"):
-        return Result([], "skipped, for clang-tidy is not installed")
+    version = commands.version_of("clang-tidy")
+    if version != commands.CLANG_VERSION:
+        return Result([], f"skipped, for {commands.CLANG_VERSION} is the version that it goes by, and installed is "
+                          f"{version or 'none'}")
     try:
         entries = commands.read(arguments.build)
     except commands.NotConfigured as error:

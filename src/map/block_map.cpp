@@ -128,10 +128,15 @@ void BlockMap::release(const std::vector<int>& slots) {
 
 std::unique_ptr<BlockMap> BlockMap::snapshot(const std::vector<std::string>& names) const {
   std::vector<LayerRow> rows;
+  MapParameters parameters = parameters_;
   for (const BlockLayer& layer : layers_) {
-    if (std::count(names.begin(), names.end(), layer.name()) > 0) rows.push_back(layer.row());
+    if (std::count(names.begin(), names.end(), layer.name()) > 0) {
+      rows.push_back(layer.row());
+    } else if (layer.row().wanted != nullptr) {
+      parameters.*layer.row().wanted = false;
+    }
   }
-  std::unique_ptr<BlockMap> copy(new BlockMap(compute_, parameters_, slots_.trimmed(), rows));
+  std::unique_ptr<BlockMap> copy(new BlockMap(compute_, parameters, slots_.trimmed(), rows));
   const auto slots = static_cast<size_t>(slots_.bound());
   copy->window_ = window_;
   copy->offsets_.copyFrom(offsets_, offsets_.bytes());

@@ -24,8 +24,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   ahead_.announce(next);
   result.tracking = session_.step(frame, std::move(texture), view_, timers_);
   ahead_.prepare();
-  fuse(frame, result);
-  render(result);
+  fuseAndRender(frame, result);
   ahead_.wait();
   session_.conclude(result.fusion.fused());
   return result;
@@ -42,6 +41,17 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   return result;
 }
 
+void ReconstructionPipeline::fuseAndRender(const RgbdFrame& frame, FrameResult& result) {
+  try {
+    fuse(frame, result);
+    if (result.fusion.fused()) view_ = &mapper_.render(result.tracking.T_W_D, timers_);
+  } catch (...) {
+    ahead_.wait();
+    session_.lose();
+    throw;
+  }
+}
+
 void ReconstructionPipeline::fuse(const RgbdFrame& frame, FrameResult& result) {
   if (result.tracking.status == TrackingStatus::kLost) return;
   const MappingResult mapping = mapper_.fuse(frame, *session_.depth(), result.tracking.T_W_D, timers_);
@@ -50,10 +60,6 @@ void ReconstructionPipeline::fuse(const RgbdFrame& frame, FrameResult& result) {
   if (mapping.fusion.fused()) return;
   result.tracking.status = TrackingStatus::kLost;
   result.tracking.reason = notFusedReason();
-}
-
-void ReconstructionPipeline::render(const FrameResult& result) {
-  if (result.fusion.fused()) view_ = &mapper_.render(result.tracking.T_W_D, timers_);
 }
 
 }  // namespace depth_fusion

@@ -77,6 +77,8 @@ TEST_F(RgbdSubscriberTest, NobodyWaitsForAFrameAtWork) {
     finish.get_future().wait();
   });
   camera_.publishDepth(frames_[0]);
+  EXPECT_TRUE(eventually([&] { return counter_.account().received == 1; }));
+  ros::WallDuration(0.2).sleep();    // the depth waits for its colour
   camera_.publishColor(frames_[1]);  // whose thread delivers the first frame, and the depth's is free
   begun.get_future().wait();
   camera_.publishDepth(frames_[1]);

@@ -7,6 +7,7 @@
 
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/trajectory_file.h"
+#include "depth_fusion/registration/registered_recording.h"
 #include "support/real_data.h"
 #include "support/test_compute.h"
 #include "tools/evaluation/trajectory_error.h"

@@ -38,10 +38,11 @@ class ReconstructionPipeline {
   size_t keyframeCount() const { return session_.keyframeCount(); }
 
  private:
+  // Fuses the session's frame and renders the view that the next one is tracked against. A frame that an
+  // exception leaves unfinished is given up, so that the next one can come.
+  void fuseAndRender(const RgbdFrame& frame, FrameResult& result);
   // Fuses the session's frame, unless it is lost; it is lost if nothing could be fused.
   void fuse(const RgbdFrame& frame, FrameResult& result);
-  // Renders the view that the next frame is tracked against.
-  void render(const FrameResult& result);
 
   PipelineParameters parameters_;
   StageTimers timers_;

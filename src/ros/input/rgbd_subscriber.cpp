@@ -99,14 +99,18 @@ void RgbdSubscriber::deliverComplete() {
   std::unique_lock<std::mutex> lock(mutex_);
   turn_.wait(lock, [this] { return !delivering_; });
   delivering_ = true;
+  // Gives the turn back, also when an exception ends it.
+  const std::shared_ptr<void> end_of_turn(nullptr, [&](void*) {
+    if (!lock.owns_lock()) lock.lock();
+    delivering_ = false;
+    turn_.notify_one();
+  });
   while (const std::optional<RgbdPairing::Pair> pair = takeComplete()) {
     const RegistrationParameters registration = registration_parameters_;
     lock.unlock();
     deliver(*pair, registration);
     lock.lock();
   }
-  delivering_ = false;
-  turn_.notify_one();
 }
 
 std::optional<RgbdPairing::Pair> RgbdSubscriber::takeComplete() {

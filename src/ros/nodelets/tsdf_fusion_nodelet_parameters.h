@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "depth_fusion/pipeline/pipeline_parameters.h"
-#include "ros/input/rgbd_subscriber.h"
+#include "ros/input/rgbd_parameters.h"
 #include "ros/output/model_picture.h"
 
 namespace depth_fusion {

@@ -31,10 +31,10 @@ class SurfacePublisher {
   void publishPoints(const std::string& frame_id);
   void publishBlocks(SharedMap& map);
 
+  std::atomic<bool> has_late_viewer_{false};  // the publishers' callbacks set it
   ros::Publisher marker_publisher_, point_publisher_, block_publisher_;
   std::unique_ptr<LiveSurface> surface_;  // while somebody looks
   ros::WallTime last_points_, last_blocks_;
-  std::atomic<bool> has_late_viewer_{false};
 };
 
 }  // namespace depth_fusion
