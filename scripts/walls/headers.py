@@ -1,5 +1,6 @@
-"""Every header compiles alone. Other libraries' headers come precompiled, which makes it quick; that a header includes
-what it uses of them, the wall `includes` checks by name."""
+"""Every header compiles alone. The build shows it of those that a source includes first, as its own; the rest are
+compiled here. Other libraries' headers come precompiled, which makes it quick; that a header includes what it uses of them,
+the wall `includes` checks by name."""
 import collections
 import concurrent.futures
 import os
@@ -45,12 +46,19 @@ def problem_of(tree, path, flags, precompiled):
     return f"{path}: does not compile alone; include what it uses: {first}"
 
 
+def own_headers(tree):
+    """The headers that some source includes before all else."""
+    firsts = (tree.includes[path][:1] for path in tree.files(("src", "test"), (".cpp",)))
+    return {include.path for first in firsts for include in first if include.path}
+
+
 def check(tree, arguments):
     try:
         entries = commands.read(arguments.build)
     except commands.NotConfigured as error:
         return Result([str(error)], "nothing was looked at")
-    paths = tree.files(("include", "src", "test"), (".h",))
+    built = own_headers(tree)
+    paths = [path for path in tree.files(("include", "src", "test"), (".h",)) if path not in built]
     flags = commands.shared_flags(entries)
     external = external_headers(tree, paths)
     digests = {path: tree.digest(path, external, *flags) for path in paths}
