@@ -45,6 +45,7 @@ size_t poolCapacity(ComputeContext& compute, const MapParameters& map) {
 std::vector<BlockLayer> makeLayers(ComputeContext& compute, const std::vector<LayerRow>& rows, int block_size,
                                    size_t capacity) {
   std::vector<BlockLayer> layers;
+  layers.reserve(rows.size());
   for (const LayerRow& row : rows) layers.emplace_back(compute, row, block_size, capacity);
   return layers;
 }

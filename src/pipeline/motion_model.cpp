@@ -19,7 +19,7 @@ MotionPrior MotionModel::predict(double stamp_s, const std::vector<FrameMotion>&
   const double since_last_s = stamp_s - std::exchange(stamp_s_, stamp_s);
   if (!tracked_) velocity_.setZero();
   if (measured.empty()) return {T_W_expected_, std::nullopt, "last pose"};
-  const MotionPrior prior = measured.front().priorFrom(T_W_expected_);
+  MotionPrior prior = measured.front().priorFrom(T_W_expected_);
   velocity_ = velocityOver(measured.front().T_previous_current, since_last_s);
   T_W_expected_ = prior.T_W_D;
   return prior;

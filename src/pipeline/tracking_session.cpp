@@ -53,7 +53,7 @@ void TrackingSession::prepareAhead(const RgbdFrame& frame, const TexturedFrame& 
 MotionPrior TrackingSession::takePrepared(const RgbdFrame& frame) {
   check(ahead_->stamp_s == frame.stamp_s, "TrackingSession: the frame is not the one prepared ahead");
   depth_ = std::move(ahead_->depth);
-  const MotionPrior prior = ahead_->prior;
+  MotionPrior prior = ahead_->prior;
   ahead_.reset();
   return prior;
 }
@@ -112,7 +112,7 @@ TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const Frame
   for (const Keyframe* keyframe : relocaliser_.candidates(features)) {
     const TextureOdometryResult motion = matcher_.match(keyframe->features, features, true);
     if (!motion.found) continue;
-    const TrackingResult result = trackFrom(motion.priorFrom(keyframe->T_W_D), timers);
+    TrackingResult result = trackFrom(motion.priorFrom(keyframe->T_W_D), timers);
     if (result.status != TrackingStatus::kLost) return result;
   }
   return motion_.isTracking() ? lost : trackFrom(prior, timers);
