@@ -114,7 +114,8 @@ class SevenScenesRecording : public Recording {
     frame.depth_unit_m = kDepthUnit_m;
     frame.intrinsics = intrinsics_.camera;
     checkDepthSize(frame.depth, frame.intrinsics, files.depth);
-    if (!files.color.empty()) readColorOrProblem(frame, [&] { return readColorImage(files.color); });
+    if (!files.color.empty())
+      readColorOrProblem(frame, [&color = files.color] { return readColorImage(color); });
     setColorCamera(frame);
     if (!files.pose.empty()) frame.T_W_D = readPose(files.pose);
     return frame;
