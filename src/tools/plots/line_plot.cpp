@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "depth_fusion/common/error.h"
+#include "tools/plots/nice_step.h"
 
 namespace depth_fusion {
 namespace {
@@ -31,15 +32,6 @@ std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.4g", value);
   return text;
-}
-
-// Returns 1, 2 or 5 times a power of ten, so that about six steps fit into the extent.
-double niceStep(double extent) {
-  const double power = std::pow(10.0, std::floor(std::log10(extent / 6.0)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= extent / 6.0) return factor * power;
-  }
-  return 10.0 * power;
 }
 
 // Maps values to the part of the frame's width or height.

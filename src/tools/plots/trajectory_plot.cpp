@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "depth_fusion/common/error.h"
+#include "tools/plots/nice_step.h"
 
 namespace depth_fusion {
 namespace {
@@ -43,16 +44,6 @@ std::string number(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof(text), format, value);
   return text;
-}
-
-// Returns 1, 2 or 5 times a power of ten, so that about six steps fit into the extent.
-double niceStep(double extent) {
-  const double rough = extent / 6.0;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) return factor * power;
-  }
-  return 10.0 * power;
 }
 
 Range rangeOf(const std::vector<PosePair>& pairs, int axis) {

@@ -9,6 +9,7 @@
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
 #include "support/expect_error.h"
 #include "support/map_contents.h"
+#include "support/room_frames.h"
 #include "support/test_compute.h"
 #include "tools/simulation/simulated_recording.h"
 
@@ -18,26 +19,8 @@ namespace {
 constexpr CameraIntrinsics kCamera{160, 120, 131.25, 131.25, 79.5, 59.5};
 constexpr int kFrames = 12;
 
-PipelineParameters pipelineParameters() {
-  PipelineParameters parameters;
-  parameters.map.voxel_size_m = 0.02f;
-  parameters.map.truncation_m = 0.08f;
-  parameters.map.blocks_per_axis = 64;
-  parameters.map.pool_mib = 32;
-  return parameters;
-}
-
-// The room seen by a slowly moving camera.
 const std::vector<RgbdFrame>& roomFrames() {
-  static const std::vector<RgbdFrame> frames = [] {
-    SimulationOptions options;
-    options.frames = kFrames;
-    options.intrinsics = kCamera;
-    SimulatedRecording recording(options);
-    std::vector<RgbdFrame> all;
-    while (std::optional<RgbdFrame> frame = recording.next()) all.push_back(std::move(*frame));
-    return all;
-  }();
+  static const std::vector<RgbdFrame> frames = simulateRoom(kCamera, kFrames);
   return frames;
 }
 
@@ -83,16 +66,16 @@ void expectRoomTracked(const PipelineParameters& parameters) {
   EXPECT_GT(meshOf(pipeline).triangles.size(), 5000u);
 }
 
-TEST(ReconstructionPipeline, TracksAndFusesTheRoom) { expectRoomTracked(pipelineParameters()); }
+TEST(ReconstructionPipeline, TracksAndFusesTheRoom) { expectRoomTracked(coarseRoomParameters()); }
 
 TEST(ReconstructionPipeline, TracksAgainstViewsOfHalfTheSize) {
-  PipelineParameters parameters = pipelineParameters();
+  PipelineParameters parameters = coarseRoomParameters();
   parameters.model_view.half_size = true;
   expectRoomTracked(parameters);
 }
 
 TEST(ReconstructionPipeline, StartsWithTheFirstFrameThatHasDepth) {
-  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  ReconstructionPipeline pipeline(compute(), coarseRoomParameters(), kCamera);
   for (int i = 0; i < 3; ++i)
     expectLost(pipeline.processFrame(frameWithoutDepth()), "only 0 points with depth in range");
   EXPECT_EQ(pipeline.map().usage().blocks, 0u);
@@ -104,7 +87,7 @@ TEST(ReconstructionPipeline, StartsWithTheFirstFrameThatHasDepth) {
 }
 
 TEST(ReconstructionPipeline, LostFrameChangesNothingAndTheNextIsTracked) {
-  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  ReconstructionPipeline pipeline(compute(), coarseRoomParameters(), kCamera);
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[i])));
   const MapContent before = readMap(pipeline.map());
   ASSERT_GT(before.size(), 100u);
@@ -122,7 +105,7 @@ TEST(ReconstructionPipeline, LostFrameChangesNothingAndTheNextIsTracked) {
 }
 
 TEST(ReconstructionPipeline, TracksOnFromAPoseThatWasGiven) {
-  PipelineParameters parameters = pipelineParameters();
+  PipelineParameters parameters = coarseRoomParameters();
   parameters.map.blocks_per_axis = 256;
   ReconstructionPipeline pipeline(compute(), parameters, kCamera);
   ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[0])));
@@ -149,7 +132,7 @@ TEST(ReconstructionPipeline, ComesBackAfterABlackoutAndAJump) {
   for (cv::Mat* image : {&black.depth, &black.color})
     *image = cv::Mat(image->size(), image->type(), cv::Scalar::all(0));
 
-  ReconstructionPipeline pipeline(compute(), pipelineParameters(), options.intrinsics);
+  ReconstructionPipeline pipeline(compute(), coarseRoomParameters(), options.intrinsics);
   for (const RgbdFrame& frame : frames) {
     const FrameResult result = pipeline.processFrame(frame);
     ASSERT_TRUE(isTracking(result)) << frame.stamp_s << " " << result.tracking.reason;
@@ -171,7 +154,7 @@ TEST(ReconstructionPipeline, ComesBackAfterABlackoutAndAJump) {
 
 // Another place looks like none of the keyframes: lost it stays.
 TEST(ReconstructionPipeline, StaysLostInAnotherPlace) {
-  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  ReconstructionPipeline pipeline(compute(), coarseRoomParameters(), kCamera);
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[i])));
   const MapContent before = readMap(pipeline.map());
   SimulationOptions options;
@@ -185,8 +168,8 @@ TEST(ReconstructionPipeline, StaysLostInAnotherPlace) {
 }
 
 TEST(ReconstructionPipeline, TheSameFramesGiveTheSameBits) {
-  ReconstructionPipeline a(compute(), pipelineParameters(), kCamera);
-  ReconstructionPipeline b(compute(), pipelineParameters(), kCamera);
+  ReconstructionPipeline a(compute(), coarseRoomParameters(), kCamera);
+  ReconstructionPipeline b(compute(), coarseRoomParameters(), kCamera);
   for (const RgbdFrame& frame : roomFrames()) {
     const FrameResult result_a = a.processFrame(frame);
     const FrameResult result_b = b.processFrame(frame);
@@ -234,7 +217,7 @@ void expectSameOverlapped(const PipelineParameters& parameters, const std::vecto
 }
 
 TEST(ReconstructionPipeline, OverlappedFramesGiveTheSameBits) {
-  PipelineParameters parameters = pipelineParameters();
+  PipelineParameters parameters = coarseRoomParameters();
   parameters.preprocessing.readout_s = 0.03f;
   expectSameOverlapped(parameters, framesWithALoss());
   parameters.texture_odometry.enabled = false;
@@ -242,7 +225,7 @@ TEST(ReconstructionPipeline, OverlappedFramesGiveTheSameBits) {
 }
 
 TEST(ReconstructionPipeline, OverlappedFramesGiveTheSameBitsAfterOneThatIsNotFused) {
-  PipelineParameters parameters = pipelineParameters();
+  PipelineParameters parameters = coarseRoomParameters();
   parameters.map.blocks_per_axis = 16;
   parameters.preprocessing.readout_s = 0.03f;
   std::vector<RgbdFrame> frames = roomFrames();
@@ -255,7 +238,7 @@ TEST(ReconstructionPipeline, OverlappedFramesGiveTheSameBitsAfterOneThatIsNotFus
 
 TEST(ReconstructionPipeline, OnlyTheAnnouncedFrameMayComeNext) {
   const std::vector<RgbdFrame>& frames = roomFrames();
-  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  ReconstructionPipeline pipeline(compute(), coarseRoomParameters(), kCamera);
   pipeline.processFrame(frames[0], &frames[1]);
   expectError([&] { pipeline.processFrame(frames[2]); }, {"was announced", "came"});
   expectError([&] { pipeline.processFrame(frames[1], *frames[1].T_W_D); }, {"was announced", "pose"});
@@ -267,7 +250,7 @@ TEST(ReconstructionPipeline, OnlyTheAnnouncedFrameMayComeNext) {
 
 TEST(ReconstructionPipeline, FusesWithGivenPoses) {
   const SimulatedScene scene = makeScene("room");
-  ReconstructionPipeline pipeline(compute(), pipelineParameters(), kCamera);
+  ReconstructionPipeline pipeline(compute(), coarseRoomParameters(), kCamera);
   expectLost(pipeline.processFrame(frameWithoutDepth(), *roomFrames()[0].T_W_D), "no depth in range");
   for (const RgbdFrame& frame : roomFrames()) {
     const FrameResult result = pipeline.processFrame(frame, *frame.T_W_D);

@@ -7,8 +7,8 @@
 
 #include "depth_fusion/pipeline/mapper.h"
 #include "support/expect_error.h"
+#include "support/room_frames.h"
 #include "support/test_compute.h"
-#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {
@@ -19,11 +19,7 @@ constexpr int kNotFused = 4;
 
 // Every fused frame is a keyframe, and the sensor's velocity changes the depth.
 PipelineParameters sessionParameters() {
-  PipelineParameters parameters;
-  parameters.map.voxel_size_m = 0.02f;
-  parameters.map.truncation_m = 0.08f;
-  parameters.map.blocks_per_axis = 64;
-  parameters.map.pool_mib = 32;
+  PipelineParameters parameters = coarseRoomParameters();
   parameters.relocalisation.keyframe_distance_m = 0.001f;
   parameters.relocalisation.keyframe_angle_rad = 0.001f;
   parameters.preprocessing.readout_s = 0.03f;
@@ -31,15 +27,7 @@ PipelineParameters sessionParameters() {
 }
 
 const std::vector<RgbdFrame>& roomFrames() {
-  static const std::vector<RgbdFrame> frames = [] {
-    SimulationOptions options;
-    options.frames = kFrames;
-    options.intrinsics = kCamera;
-    SimulatedRecording recording(options);
-    std::vector<RgbdFrame> all;
-    while (std::optional<RgbdFrame> frame = recording.next()) all.push_back(std::move(*frame));
-    return all;
-  }();
+  static const std::vector<RgbdFrame> frames = simulateRoom(kCamera, kFrames);
   return frames;
 }
 
