@@ -2,9 +2,9 @@
 // stamp. Depth 0 = none. A work-item takes SIMD_WIDTH pixels of a row.
 #include "shared/image.h"
 
-// With the sensor moving at (rotation, velocity), the point p that a row saw at `time_s` before the stamp
-// lies at p + time_s * (rotation x p + velocity) in the sensor's frame at the stamp. The pixel of p, the
-// nearest, is found from the depth at the pixel itself, then once more from the depth found there.
+// The sensor moves at (rotation, velocity), so the point p that a row saw at `time_s` before the stamp lies
+// at p + time_s * (rotation x p + velocity) in the sensor's frame at the stamp. The pixel of p, the nearest,
+// is found from the depth at the pixel itself, then once more from the depth found there.
 __kernel void compensate_motion(__global const float* depth, __global float* compensated, CameraArgs camera,
                                 SensorMotionArgs motion) {
   const int x = get_global_id(0) * SIMD_WIDTH;

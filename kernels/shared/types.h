@@ -42,7 +42,7 @@
 #define DISTANCE_PLANE 1
 #define DISTANCE_REFINED 2
 
-// So many slots, one after the other, are looked at or left out together.
+// The slots of a group, one after the other, are looked at or left out together.
 #define SLOTS_PER_GROUP 64
 
 // A work-item tests so many slots for visibility: one on a GPU; on a CPU many, which it lists with one

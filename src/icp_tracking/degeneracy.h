@@ -1,4 +1,4 @@
-// Which directions of motion the geometry leaves free (the paper's section "Cooperation with CPU
+// Finds the directions of motion that the geometry leaves free (the paper's section "Cooperation with CPU
 // Registration").
 #pragma once
 

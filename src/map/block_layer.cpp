@@ -16,7 +16,8 @@ const std::vector<LayerRow>& layerTable() {
 }
 
 // The bytes of a block of which nothing is known.
-std::vector<uint8_t> clearedBytes(const LayerRow& row, size_t voxels) {
+std::vector<uint8_t> clearedBytes(const LayerRow& row, int block_size) {
+  const size_t voxels = row.bytesPerBlock(block_size) / row.bytesPerVoxel();
   std::vector<uint8_t> bytes;
   for (const LayerPlane& plane : row.planes) {
     for (size_t i = 0; i < voxels * plane.bytes_per_voxel; ++i) {
@@ -27,17 +28,17 @@ std::vector<uint8_t> clearedBytes(const LayerRow& row, size_t voxels) {
   return bytes;
 }
 
-size_t voxelsOf(int block_size) {
-  const auto m = static_cast<size_t>(block_size);
-  return m * m * m;
-}
-
 }  // namespace
 
 size_t LayerRow::bytesPerVoxel() const {
   size_t bytes = 0;
   for (const LayerPlane& plane : planes) bytes += plane.bytes_per_voxel;
   return bytes;
+}
+
+size_t LayerRow::bytesPerBlock(int block_size) const {
+  const auto m = static_cast<size_t>(block_size);
+  return m * m * m * bytesPerVoxel();
 }
 
 std::vector<LayerRow> layersOf(const MapParameters& map) {
@@ -50,10 +51,10 @@ std::vector<LayerRow> layersOf(const MapParameters& map) {
 
 BlockLayer::BlockLayer(ComputeContext& compute, const LayerRow& row, int block_size, size_t capacity)
     : row_(row),
-      buffer_(compute, capacity * voxelsOf(block_size) * row.bytesPerVoxel(),
+      buffer_(compute, capacity * row.bytesPerBlock(block_size),
               ("the map's layer " + row.name + " of map/pool_mib").c_str()),
-      cleared_block_(compute, voxelsOf(block_size) * row.bytesPerVoxel(), "a block without contents") {
-  cleared_block_.write(clearedBytes(row, voxelsOf(block_size)));
+      cleared_block_(compute, row.bytesPerBlock(block_size), "a block without contents") {
+  cleared_block_.write(clearedBytes(row, block_size));
 }
 
 }  // namespace depth_fusion

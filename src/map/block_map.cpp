@@ -29,12 +29,12 @@ MapParameters checked(MapParameters parameters) {
 size_t poolCapacity(ComputeContext& compute, const MapParameters& map) {
   const std::vector<LayerRow> layers = layersOf(map);
   const size_t pool_bytes = static_cast<size_t>(map.pool_mib) << 20;
-  const size_t capacity = std::min(pool_bytes / (cube(map.block_size) * layers.front().bytesPerVoxel()),
-                                   cube(map.blocks_per_axis));
+  const size_t capacity =
+      std::min(pool_bytes / layers.front().bytesPerBlock(map.block_size), cube(map.blocks_per_axis));
   check(capacity > 0, "map/pool_mib holds not even one block");
   const size_t limit = compute.impl().device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   for (const LayerRow& layer : layers) {
-    check(capacity * cube(map.block_size) * layer.bytesPerVoxel() <= limit,
+    check(capacity * layer.bytesPerBlock(map.block_size) <= limit,
           "map/pool_mib is too large: the layer " + layer.name + ", of " +
               std::to_string(layer.bytesPerVoxel()) +
               " bytes a voxel, is over the device's largest buffer, " + std::to_string(limit >> 20) + " MiB");
@@ -61,7 +61,7 @@ std::vector<BlockRequest> requestsOf(const BlockIndex* begin, const BlockIndex* 
 
 size_t mapBytes(const MapParameters& map, size_t blocks) {
   size_t bytes = 4 * cube(map.blocks_per_axis);
-  for (const LayerRow& layer : layersOf(map)) bytes += blocks * cube(map.block_size) * layer.bytesPerVoxel();
+  for (const LayerRow& layer : layersOf(map)) bytes += blocks * layer.bytesPerBlock(map.block_size);
   return bytes;
 }
 
@@ -146,7 +146,7 @@ std::unique_ptr<BlockMap> BlockMap::snapshot(const std::vector<std::string>& nam
   for (const BlockLayer& layer : layers_) {
     if (!copy->hasLayer(layer.name())) continue;
     copy->layer(layer.name())
-        .copyFrom(layer.buffer(), slots * cube(parameters_.block_size) * layer.bytesPerVoxel());
+        .copyFrom(layer.buffer(), slots * layer.row().bytesPerBlock(parameters_.block_size));
   }
   return copy;
 }
@@ -169,7 +169,7 @@ BlockMap::Usage BlockMap::usage() const {
   usage.bytes = offsets_.bytes();
   usage.pool_bytes = offsets_.bytes() + block_indices_.bytes() + block_states_.bytes();
   for (const BlockLayer& layer : layers_) {
-    const size_t bytes = usage.blocks * cube(parameters_.block_size) * layer.bytesPerVoxel();
+    const size_t bytes = usage.blocks * layer.row().bytesPerBlock(parameters_.block_size);
     usage.layer_bytes[layer.name()] = bytes;
     usage.bytes += bytes;
     usage.pool_bytes += layer.buffer().bytes();

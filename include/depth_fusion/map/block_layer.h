@@ -25,6 +25,8 @@ struct LayerRow {
   bool MapParameters::*wanted;  // null: every map has the layer
 
   size_t bytesPerVoxel() const;
+  // The bytes of a block of block_size^3 voxels.
+  size_t bytesPerBlock(int block_size) const;
 };
 
 // The layers of a map with these parameters: the TSDF first. Their table in src/map/block_layer.cpp is the

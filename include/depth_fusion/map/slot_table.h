@@ -1,4 +1,4 @@
-// Which block is in which slot of a map's memory.
+// The table of the slots of a map's memory and of the blocks in them.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -28,7 +28,7 @@ class DepthPreprocessor {
   // becomes that of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid
   // until the next call. Throws Error if depth or weights have another type or size than expected.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity = Vector6d::Zero());
-  // The same as a step of a frame's way: it is timed, and done when the call returns.
+  // Does the same as a step of a frame's way: it is timed, and done when the call returns.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity, StageTimers& timers);
   // Returns the last result, which stays valid and unchanged for as long as it is held.
   std::shared_ptr<const DepthFrame> result() const { return results_.current(); }

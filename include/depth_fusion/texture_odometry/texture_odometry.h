@@ -21,8 +21,8 @@ class TextureOdometry {
 
   // Finds the motion against the frame of the last call.
   TextureOdometryResult process(const RgbdFrame& frame);
-  // The same with the frame's features, and timed; without either, but with the reason, unless texture
-  // odometry is enabled.
+  // Finds the frame's features and its motion, and takes the time. If texture odometry is not enabled, the
+  // result has neither, but says so.
   TexturedFrame texture(const RgbdFrame& frame, StageTimers& timers);
   void reset();
 

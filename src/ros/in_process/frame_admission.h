@@ -1,4 +1,4 @@
-// Which frames come into a live map.
+// Decides which frames come into a live map.
 #pragma once
 
 #include <cstdint>

@@ -27,8 +27,9 @@ class CameraTree {
   };
   // Returns the top of what is known of the tree now, below map_frame.
   Root rootOf(const std::string& camera_frame) const;
-  // The same once the tree has stopped growing. Where somebody publishes on tf, it waits until no frame was
-  // new for a second; a camera that stands alone waits as long for company. It waits three seconds at most.
+  // Returns the same once the tree has stopped growing. Where somebody publishes on tf, it waits until no
+  // frame was new for a second; a camera that stands alone waits as long for company. It waits three seconds
+  // at most.
   Root settledRootOf(const std::string& camera_frame) const;
   // Returns T_frame_camera at the image's stamp, and waits a little for it. Throws Error if the two are not
   // connected.
