@@ -26,8 +26,8 @@ RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& par
              [this](const ImageMessage& image) { onColor(image); }),
       depth_(handle, depth_topic_, parameters.depth_transport,
              [this](const ImageMessage& image) { onDepth(image); }),
-      timer_(handle.createWallTimer(ros::WallDuration(kReleasePeriod_s),
-                                    [this](const ros::WallTimerEvent&) { deliverComplete(); })) {}
+      timer_(callbacks_.createWallTimer(handle, ros::WallDuration(kReleasePeriod_s),
+                                        [this](const ros::WallTimerEvent&) { deliverComplete(); })) {}
 
 void RgbdSubscriber::setParameters(const RgbdParameters& parameters) {
   const std::lock_guard<std::mutex> lock(mutex_);

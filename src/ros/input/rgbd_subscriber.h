@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "ros/callbacks/callback_gate.h"
 #include "ros/in_process/frame_counter.h"
 #include "ros/input/image_topic.h"
 #include "ros/input/lazy_registration.h"
@@ -70,6 +71,7 @@ class RgbdSubscriber {
 
   // These are last: they end, and with them every callback, before anything that the callbacks use.
   ImageTopic color_, depth_;
+  CallbackGate callbacks_;
   ros::WallTimer timer_;
 };
 

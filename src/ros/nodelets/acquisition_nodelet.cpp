@@ -25,7 +25,7 @@ class AcquisitionNodelet : public StageNodelet {
 };
 
 AcquisitionNodelet::~AcquisitionNodelet() {
-  stopReporting();
+  stopServing();
   if (source_) source_->stop();
   if (thread_.joinable()) thread_.join();
 }

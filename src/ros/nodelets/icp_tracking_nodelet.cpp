@@ -38,7 +38,7 @@ class IcpTrackingNodelet : public StageNodelet {
 };
 
 IcpTrackingNodelet::~IcpTrackingNodelet() {
-  stopReporting();
+  stopServing();
   frame_subscriber_.shutdown();
   view_subscriber_.shutdown();
   sensor_subscriber_.reset();

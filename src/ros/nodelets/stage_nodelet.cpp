@@ -66,8 +66,8 @@ void StageNodelet::startReporting() {
   updater_ = std::make_unique<diagnostic_updater::Updater>(getMTNodeHandle(), handle, getName());
   updater_->setHardwareID("none");
   updater_->add("frames", this, &StageNodelet::diagnoseFrames);
-  report_timer_ = handle.createWallTimer(ros::WallDuration(kReportPeriod_s),
-                                         [this](const ros::WallTimerEvent&) { report(); });
+  report_timer_ = callbacks_.createWallTimer(handle, ros::WallDuration(kReportPeriod_s),
+                                             [this](const ros::WallTimerEvent&) { report(); });
   reconfigure_server_ = std::make_unique<ReconfigureServer>(
       parameter_groups_, default_parameters_,
       ReconfigureServer::Nodelet{getName(),
@@ -75,9 +75,9 @@ void StageNodelet::startReporting() {
                                  [this] { applyParameters(); }});
 }
 
-void StageNodelet::stopReporting() {
+void StageNodelet::stopServing() {
   reconfigure_server_.reset();
-  report_timer_.stop();
+  callbacks_.close();
 }
 
 void StageNodelet::recordTimings(const StageTimers& timers) {

@@ -14,6 +14,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/stage_timers.h"
+#include "ros/callbacks/callback_gate.h"
 #include "ros/in_process/frame_counter.h"
 #include "ros/in_process/process_message.h"
 #include "ros/parameters/reconfigure_server.h"
@@ -56,13 +57,14 @@ class StageNodelet : public nodelet::Nodelet {
 
   // Is called at the end of start(): diagnostics and timings go out from here on, and parameters may change.
   void startReporting();
-  // Is called at the beginning of the destructor.
-  void stopReporting();
+  // Is called at the beginning of the destructor: timers and services end.
+  void stopServing();
 
   // Adds what the timers have to the report. Thread-safe.
   void recordTimings(const StageTimers& timers);
 
   FrameCounter counter_;
+  CallbackGate callbacks_;  // makes every timer and service of the nodelet
 
  private:
   void onInit() final;

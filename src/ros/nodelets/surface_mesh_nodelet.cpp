@@ -45,20 +45,16 @@ class SurfaceMeshNodelet : public StageNodelet {
   std::unique_ptr<ros::AsyncSpinner> export_spinner_;
 };
 
-SurfaceMeshNodelet::~SurfaceMeshNodelet() {
-  stopReporting();
-  export_server_.shutdown();
-  export_spinner_.reset();
-  update_timer_.stop();
-}
+SurfaceMeshNodelet::~SurfaceMeshNodelet() { stopServing(); }
 
 void SurfaceMeshNodelet::start() {
   loadParameters(parameters_.table());
   parameters_.checkTogether();
   if (parameters_.map.empty()) parameters_.map = getNodeHandle().resolveName("tsdf_fusion");
   advertise();
-  update_timer_ = getMTPrivateNodeHandle().createWallTimer(
-      ros::WallDuration(1.0 / parameters_.publish_rate_hz), [this](const ros::WallTimerEvent&) { update(); });
+  update_timer_ = callbacks_.createWallTimer(getMTPrivateNodeHandle(),
+                                             ros::WallDuration(1.0 / parameters_.publish_rate_hz),
+                                             [this](const ros::WallTimerEvent&) { update(); });
   startReporting();
 }
 
@@ -77,7 +73,9 @@ void SurfaceMeshNodelet::advertise() {
   surface_ = std::make_unique<SurfacePublisher>(getMTPrivateNodeHandle());
   ros::NodeHandle export_handle = getPrivateNodeHandle();
   export_handle.setCallbackQueue(&export_queue_);
-  export_server_ = export_handle.advertiseService("export_mesh", &SurfaceMeshNodelet::serveExport, this);
+  export_server_ = callbacks_.advertiseService<ExportMesh::Request, ExportMesh::Response>(
+      export_handle, "export_mesh",
+      [this](auto& request, auto& response) { return serveExport(request, response); });
   export_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &export_queue_);
   export_spinner_->start();
 }

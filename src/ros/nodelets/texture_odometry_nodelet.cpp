@@ -14,7 +14,7 @@ namespace depth_fusion {
 class TextureOdometryNodelet : public StageNodelet {
  public:
   ~TextureOdometryNodelet() override {
-    stopReporting();
+    stopServing();
     subscriber_.reset();
     if (worker_ != nullptr) worker_->stop();
   }

@@ -41,9 +41,7 @@ class TsdfFusionNodelet : public StageNodelet {
 };
 
 TsdfFusionNodelet::~TsdfFusionNodelet() {
-  stopReporting();
-  reset_server_.shutdown();
-  mode_server_.shutdown();
+  stopServing();
   frame_subscriber_.shutdown();
   posed_subscriber_.reset();
   if (worker_ != nullptr) worker_->stop();
@@ -69,8 +67,11 @@ void TsdfFusionNodelet::advertise() {
       parameters_.queue_size, [this](const TrackedFramePtr& frame) { process(frame); },
       [this](const TrackedFramePtr&) { counter_.drop(kTooSlow); });
   subscribe();
-  reset_server_ = handle.advertiseService("reset_volume", &TsdfFusionNodelet::serveReset, this);
-  mode_server_ = handle.advertiseService("set_mode", &TsdfFusionNodelet::serveMode, this);
+  reset_server_ = callbacks_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
+      handle, "reset_volume",
+      [this](auto& request, auto& response) { return serveReset(request, response); });
+  mode_server_ = callbacks_.advertiseService<SetMode::Request, SetMode::Response>(
+      handle, "set_mode", [this](auto& request, auto& response) { return serveMode(request, response); });
 }
 
 void TsdfFusionNodelet::subscribe() {

@@ -51,12 +51,14 @@ ReconfigureServer::ReconfigureServer(std::vector<ParameterGroup> groups,
   description_publisher_.publish(makeDescription(groups_, defaults));
   update_publisher_ = handle.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true);
   publish();
-  server_ = handle.advertiseService("set_parameters", &ReconfigureServer::serve, this);
+  server_ = callbacks_.advertiseService<dynamic_reconfigure::Reconfigure::Request,
+                                        dynamic_reconfigure::Reconfigure::Response>(
+      handle, "set_parameters", [this](auto& request, auto& response) { return serve(request, response); });
   known.all.push_back(this);
 }
 
 ReconfigureServer::~ReconfigureServer() {
-  server_.shutdown();
+  callbacks_.close();
   Servers& known = servers();
   const std::lock_guard<std::mutex> lock(known.mutex);
   known.all.erase(std::remove(known.all.begin(), known.all.end(), this), known.all.end());

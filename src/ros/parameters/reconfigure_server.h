@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/callbacks/callback_gate.h"
 #include "ros/parameters/reconfigure_messages.h"
 
 namespace depth_fusion {
@@ -51,6 +52,7 @@ class ReconfigureServer {
   Nodelet nodelet_;
   ros::Publisher description_publisher_, update_publisher_;
   ros::ServiceServer server_;
+  CallbackGate callbacks_;
 };
 
 }  // namespace depth_fusion
