@@ -3,6 +3,8 @@
 // partial_sums[group * ICP_SUMS + i].
 //   source_*  depth and normals (shared/normal.h) of the current frame, camera `source`
 //   model_*   depth and normals of the model view, camera `model`
+// A match fits by 1 - (r / (ICP_FIT_SIGMAS sigma))^2, at least 0 (the score of MSAC: P. Torr, A. Zisserman,
+// "MLESAC", CVIU 2000).
 // Residual r = n . (T p - q); Jacobian with respect to the twist (rotation, translation) applied on the left
 // of T: J = [(T p) x n, n].
 #include "shared/image.h"
@@ -69,6 +71,8 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
     }
     sums[27] += select((vfloat)(0.0f), weight * residual * residual, inlier);
     sums[28] += select((vfloat)(0.0f), (vfloat)(1.0f), inlier);
+    const vfloat sigmas = residual / (ICP_FIT_SIGMAS * sigma_m);
+    sums[30] += select((vfloat)(0.0f), max(1.0f - sigmas * sigmas, (vfloat)(0.0f)), inlier);
   }
 
 #if GROUP_SIZE == 1

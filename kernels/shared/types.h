@@ -206,8 +206,9 @@ typedef struct {
 } MeshBlockArgs;
 
 // Sums of the ICP system: the upper triangle of J^T w J row by row, J^T w r, w r^2, the number of inliers,
-// and the number of source points.
-#define ICP_SUMS 30
+// the number of source points, and the inliers' fit.
+#define ICP_SUMS 31
+#define ICP_FIT_SIGMAS 3.0f  // residual, in standard deviations of the sensor, from which on a match does not fit
 #define ICP_UNIT_SIGMA_M 0.0012f  // of the sensor's sigma, where a match's weight is 1
 
 #endif

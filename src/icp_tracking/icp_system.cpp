@@ -23,7 +23,8 @@ IcpSystem sumRows(const std::vector<float>& partial_sums, int row_step) {
   for (int row = 0; row < 6; ++row) system.gradient(row) = sums[next++];
   system.squared_residuals = sums[next++];
   system.inliers = sums[next++];
-  system.source_points = sums[next];
+  system.source_points = sums[next++];
+  system.fit = sums[next];
   return system;
 }
 

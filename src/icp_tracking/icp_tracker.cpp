@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <cmath>
 #include <sstream>
 
@@ -22,6 +23,7 @@ struct IcpTracker::Alignment {
   Pose T_M_D;
   IcpSystem system;  // of the last iteration, as the members below
   Matrix6d covariance = Matrix6d::Identity();
+  double prior_sigmas = 0.0;  // how far geometry alone is from the prior
   std::string free_directions;
   double smallest_eigenvalue = 0.0;
   int iterations = 0;
@@ -119,6 +121,19 @@ Solution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const IcpT
   return {information.ldlt().solve(-gradient), information.inverse()};
 }
 
+// How far the solution of geometry alone is from the prior (TrackingResult::prior_sigmas), from the pose that
+// balances both: the distances of that from either add up.
+double distanceFromPrior(const DegeneracyAnalysis& analysis, const Pose& T_M_D,
+                         const IcpTracker::SystemPrior& prior, double correlated) {
+  if (!prior.information || analysis.freeDirections() == 6) return 0.0;
+  const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
+  const Vector6d pull = *prior.information * deviation;
+  const Matrix6d geometry = weighed(analysis.constrained(), correlated).hessian;
+  const double squared =
+      deviation.dot(pull) + pull.dot(geometry.completeOrthogonalDecomposition().solve(pull));
+  return std::sqrt(std::max(squared, 0.0) / (6 - analysis.freeDirections()));
+}
+
 // A step is of use as far as matches reach: no point at the box's border is to move farther than their gate.
 Vector6d limited(const Vector6d& twist, const MatchGates& gates, const Eigen::AlignedBox3d& box) {
   const double reach_m = (twist.tail<3>() + twist.head<3>().cross(box.center())).norm() +
@@ -174,9 +189,30 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
     if (!converged && i + 1 < iterations[level]) continue;
     alignment.free_directions = analysis.freeDirectionNames();
     alignment.smallest_eigenvalue = analysis.smallestEigenvalue();
+    alignment.prior_sigmas =
+        distanceFromPrior(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
     break;
   }
   return true;
+}
+
+Pose IcpTracker::bestStart(const DepthFrame& frame, const ModelView& view, const std::vector<Pose>& starts,
+                           StageTimers& timers) {
+  const StageTimers::Scope timer(timers, "icp_tracking/search");
+  const int coarsest = static_cast<int>(frame.levels.size()) - 1;
+  const Pose T_M_W = view.T_W_D.inverse();
+  const Eigen::AlignedBox3d box = spreadBox(frame.levels.back(), T_M_W * starts.front());
+  Pose best = starts.front();
+  double most_explained = 0.0;
+  for (const Pose& T_W_D : starts) {
+    Alignment alignment;
+    alignment.T_M_D = orthonormalized(T_M_W * T_W_D);
+    alignLevel(coarsest, frame, view, {alignment.T_M_D, std::nullopt}, box, alignment);
+    if (alignment.system.fit <= most_explained) continue;
+    most_explained = alignment.system.fit;
+    best = orthonormalized(view.T_W_D * alignment.T_M_D);
+  }
+  return best;
 }
 
 TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior,
@@ -196,6 +232,9 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
   result.inliers = static_cast<int>(alignment.system.inliers);
   const double points = alignment.system.source_points;
   result.inlier_fraction = points > 0.0 ? alignment.system.inliers / points : 0.0;
+  result.explained = points > 0.0 ? alignment.system.fit / points : 0.0;
+  result.prior = prior.origin;
+  result.prior_sigmas = alignment.prior_sigmas;
   result.rmse_m = alignment.system.rmse();
   result.smallest_eigenvalue = alignment.smallest_eigenvalue;
   result.T_W_D = orthonormalized(view.T_W_D * alignment.T_M_D);

@@ -28,13 +28,25 @@ MotionPrior MotionModel::predict(double stamp_s, const std::vector<FrameMotion>&
 const Vector6d& MotionModel::moveTo(double stamp_s, const Pose& T_W_D) {
   velocity_.setZero();
   if (tracked_) velocity_ = velocityOver(tracked_->T_W_D.inverse() * T_W_D, stamp_s - tracked_->stamp_s);
-  tracked_ = {stamp_s, T_W_D};
+  tracked_ = last_known_ = {stamp_s, T_W_D};
+  known_velocity_ = velocity_;
   T_W_expected_ = T_W_D;
   return velocity_;
 }
 
+std::vector<MotionPrior> MotionModel::otherStarts() const {
+  if (!last_known_) return {};
+  std::vector<MotionPrior> starts = {{last_known_->T_W_D, std::nullopt, "last pose"}};
+  if (isTracking() && !known_velocity_.isZero()) {
+    const Pose motion = poseFromTwist(known_velocity_ * (stamp_s_ - last_known_->stamp_s));
+    starts.push_back({orthonormalized(last_known_->T_W_D * motion), std::nullopt, "constant velocity"});
+  }
+  return starts;
+}
+
 void MotionModel::loseAt(const Pose& T_W_D) {
   lose();
+  last_known_.reset();
   T_W_expected_ = T_W_D;
 }
 

@@ -33,11 +33,11 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
   const MotionPrior prior = view == nullptr ? MotionPrior{start, std::nullopt, "start"} : predicted;
   TrackingResult result =
       view == nullptr ? begin(frame, prior) : track(prior, texture.features, *view, timers);
-  result.prior = prior.origin;
+  if (view == nullptr) result.prior = prior.origin;
   if (result.status == TrackingStatus::kLost) {
     motion_.lose();
   } else {
-    found_ = {std::move(texture.features), result.T_W_D, motion_};
+    found_ = {std::move(texture.features), result, motion_};
     motion_.moveTo(frame.stamp_s, result.T_W_D);
   }
   return result;
@@ -61,7 +61,8 @@ MotionPrior TrackingSession::takePrepared(const RgbdFrame& frame) {
 void TrackingSession::conclude(bool fused) {
   if (fused) {
     check(found_.has_value(), "TrackingSession: no frame is to be concluded");
-    relocaliser_.add(found_->features, found_->T_W_D);
+    relocaliser_.add(found_->features, found_->result.T_W_D);
+    tracker_.accept(found_->result);
   } else {
     if (found_) {
       motion_ = found_->unless_fused;
@@ -85,6 +86,7 @@ void TrackingSession::reset(const Pose& T_W_D) {
   lose();
   motion_.loseAt(T_W_D);
   relocaliser_.reset();
+  tracker_.reset();
 }
 
 TrackingResult TrackingSession::begin(const RgbdFrame& frame, const MotionPrior& prior) const {
@@ -102,7 +104,7 @@ TrackingResult TrackingSession::begin(const RgbdFrame& frame, const MotionPrior&
 TrackingResult TrackingSession::track(const MotionPrior& prior, const FrameFeatures& features,
                                       const ModelView& view, StageTimers& timers) {
   TrackingResult result;
-  if (motion_.isTracking()) result = tracker_.track(*depth_, view, prior, timers);
+  if (motion_.isTracking()) result = tracker_.track(*depth_, view, prior, motion_.otherStarts(), timers);
   return result.status == TrackingStatus::kLost ? relocalise(prior, features, result, timers) : result;
 }
 
@@ -115,11 +117,19 @@ TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const Frame
     TrackingResult result = trackFrom(motion.priorFrom(keyframe->T_W_D), timers);
     if (result.status != TrackingStatus::kLost) return result;
   }
-  return motion_.isTracking() ? lost : trackFrom(prior, timers);
+  if (motion_.isTracking()) return lost;
+  for (const MotionPrior& start : motion_.otherStarts()) {
+    TrackingResult result = orStillLost(tracker_.search(*depth_, render_(start.T_W_D), start, timers));
+    if (result.status != TrackingStatus::kLost) return result;
+  }
+  return trackFrom(prior, timers);
 }
 
 TrackingResult TrackingSession::trackFrom(const MotionPrior& prior, StageTimers& timers) {
-  TrackingResult result = tracker_.track(*depth_, render_(prior.T_W_D), prior, timers);
+  return orStillLost(tracker_.track(*depth_, render_(prior.T_W_D), prior, {}, timers));
+}
+
+TrackingResult TrackingSession::orStillLost(TrackingResult result) const {
   if (result.status == TrackingStatus::kLost ||
       result.inlier_fraction >= parameters_.relocalisation.min_inlier_fraction) {
     return result;

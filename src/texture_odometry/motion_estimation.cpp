@@ -81,6 +81,22 @@ NoiseScale noiseOf(const MotionModel& model, const std::vector<size_t>& inliers,
   return noise;
 }
 
+// By how much all inliers may be off alike, in standard deviations of their mean. Their residuals do not show
+// it: colour and depth of different moments, and rows read one after the other, move a whole image by a part
+// of how far it moves anyway.
+double sharedErrorSigmas(const std::vector<Correspondence>& correspondences,
+                         const std::vector<size_t>& inliers, const NoiseScale& noise, double shared_error) {
+  std::vector<double> shifts, sigmas;
+  for (const size_t index : inliers) {
+    const Correspondence& pair = correspondences[index];
+    shifts.push_back((pair.current.pixel - pair.reference.pixel).norm());
+    sigmas.push_back(pair.sigma_px);
+  }
+  const double sigma_of_mean_px =
+      noise.pixels * medianOf(sigmas) / std::sqrt(static_cast<double>(inliers.size()));
+  return shared_error * medianOf(shifts) / sigma_of_mean_px;
+}
+
 }  // namespace
 
 std::optional<MotionEstimate> estimateByRansac(const std::vector<Correspondence>& correspondences,
@@ -106,7 +122,7 @@ std::optional<MotionEstimate> estimateByRansac(const std::vector<Correspondence>
 
 std::optional<MotionEstimate> refineMotion(const std::vector<Correspondence>& correspondences,
                                            const MotionCameras& cameras, const InlierGate& gate,
-                                           const Pose& start) {
+                                           const Pose& start, double shared_error) {
   const MotionModel model(correspondences, cameras);
   MotionEstimate estimate;
   estimate.T_reference_current = start;
@@ -123,7 +139,8 @@ std::optional<MotionEstimate> refineMotion(const std::vector<Correspondence>& co
   MotionSystem system;
   for (const size_t index : estimate.inliers)
     model.accumulate(index, estimate.T_reference_current, noise, system);
-  estimate.covariance = system.hessian.inverse();
+  const double shared = sharedErrorSigmas(correspondences, estimate.inliers, noise, shared_error);
+  estimate.covariance = (1.0 + shared * shared) * system.hessian.inverse();
   return estimate;
 }
 

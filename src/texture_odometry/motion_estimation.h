@@ -45,9 +45,10 @@ std::optional<MotionEstimate> estimateByRansac(const std::vector<Correspondence>
                                                int max_iterations);
 
 // Refines `start` by Gauss-Newton with a robust loss over the correspondences within the gate; the covariance
-// comes from their residuals. Returns nothing if they do not determine the motion.
+// comes from their residuals, and from an error that they share, shared_error of how far they move. Returns
+// nothing if they do not determine the motion.
 std::optional<MotionEstimate> refineMotion(const std::vector<Correspondence>& correspondences,
                                            const MotionCameras& cameras, const InlierGate& gate,
-                                           const Pose& start);
+                                           const Pose& start, double shared_error = 0.0);
 
 }  // namespace depth_fusion

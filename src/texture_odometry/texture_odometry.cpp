@@ -79,10 +79,10 @@ int inlierCount(const std::optional<MotionEstimate>& motion) {
 
 // Turns the colour camera's motion into the depth camera's.
 void setMotion(const MotionEstimate& estimate, const FrameFeatures& reference, const FrameFeatures& current,
-               double sigma_scale, TextureOdometryResult& result) {
+               TextureOdometryResult& result) {
   const Pose T_D_C = reference.T_C_D.inverse();
   result.T_previous_current = orthonormalized(T_D_C * estimate.T_reference_current * current.T_C_D);
-  const Matrix6d to_depth = sigma_scale * adjoint(T_D_C);
+  const Matrix6d to_depth = adjoint(T_D_C);
   result.covariance = to_depth * estimate.covariance * to_depth.transpose();
 }
 
@@ -165,7 +165,7 @@ TextureOdometryResult TextureOdometry::match(const FrameFeatures& reference, con
   if (inlierCount(motion) >= needed) {
     motion = refineMotion(alignPatches(reference, current, matches, pairs, motion->inliers), cameras,
                           {parameters_.fine_inlier_px, parameters_.inlier_depth_sigmas},
-                          motion->T_reference_current);
+                          motion->T_reference_current, parameters_.shared_error);
   }
   result.inliers = inlierCount(motion);
   if (result.inliers < needed) {
@@ -173,7 +173,7 @@ TextureOdometryResult TextureOdometry::match(const FrameFeatures& reference, con
         "only " + std::to_string(result.inliers) + " inliers of " + std::to_string(result.matches);
     return result;
   }
-  setMotion(*motion, reference, current, parameters_.sigma_scale, result);
+  setMotion(*motion, reference, current, result);
   result.found = true;
   return result;
 }

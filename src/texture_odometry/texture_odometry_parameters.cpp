@@ -33,8 +33,9 @@ ParameterTable TextureOdometryParameters::table() {
              "largest reprojection error of an inlier once the patches are aligned"),
       number("inlier_depth_sigmas", &inlier_depth_sigmas, 0.5, 100.0,
              "largest depth error of an inlier in standard deviations of the sensor"),
-      number("sigma_scale", &sigma_scale, 0.1, 1000.0,
-             "factor on the motion's standard deviations, for errors that the matches share")};
+      number("shared_error", &shared_error, 0.0, 1000.0,
+             "how far the matches are off alike, as a part of how far they move: colour and depth of "
+             "different moments, rows read one after the other")};
   return joined({usual, expert(joined({features, motion}))});
 }
 

@@ -72,10 +72,11 @@ class IcpReference {
     if ((p - q).norm() >= max_distance_m_ || n.dot(T_M_D_.linear() * normal_D) <= min_normal_cosine_) return;
     const double sigma = sensorSigma(p_D.z());
     const double huber = std::min(1.0, huber_sigmas_ * sigma / std::max(std::abs(n.dot(p - q)), 1e-6));
-    addMatch(p, q, n, huber * std::pow(ICP_UNIT_SIGMA_M / sigma, 2));
+    addMatch(p, q, n, huber * std::pow(ICP_UNIT_SIGMA_M / sigma, 2), sigma);
   }
 
-  void addMatch(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& n, double weight) {
+  void addMatch(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& n, double weight,
+                double sigma) {
     const auto residual = [&](const Pose& motion) { return n.dot(motion * p - q); };
     const double r = residual(Pose::Identity());
     Vector6d jacobian;
@@ -85,6 +86,7 @@ class IcpReference {
     system_.gradient += weight * r * jacobian;
     system_.squared_residuals += weight * r * r;
     ++system_.inliers;
+    system_.fit += std::max(0.0, 1.0 - std::pow(r / (ICP_FIT_SIGMAS * sigma), 2));
   }
 
   const OrientedDepth& model_;

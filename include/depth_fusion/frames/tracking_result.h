@@ -19,11 +19,21 @@ struct TrackingResult {
   Pose T_W_D = Pose::Identity();  // valid unless lost
   Matrix6d covariance = Matrix6d::Identity();  // of the twist applied to T_W_D on the left
   std::string prior;  // the origin of the prior that tracking began with; empty if the frame was not tracked
+  // How far depth alone is from the prior, in standard deviations of both (Mahalanobis, divided by the root
+  // of the number of directions that depth constrains); 0 for a prior without a covariance.
+  double prior_sigmas = 0.0;
+  std::string dropped_prior;  // the origin of a measured prior that depth contradicts; prior_sigmas is its
   int inliers = 0;
   double inlier_fraction = 0.0;  // of the frame's points with depth and normal
+  // How much of the frame the map explains: the mean over its points with depth and normal of 1 - (r / (3
+  // sigma))^2, r the point-to-plane distance; 0 where that is negative or where no surface is near.
+  double explained = 0.0;
   double rmse_m = 0.0;  // of the inliers' point-to-plane distances, weighted by the sensor's accuracy
   double smallest_eigenvalue = 0.0;  // of the system in the unit cube, divided by the matches' weights
   int iterations = 0;
+
+  // The same as `explained` over the inliers alone.
+  double matchQuality() const { return inlier_fraction > 0.0 ? explained / inlier_fraction : 0.0; }
 };
 
 }  // namespace depth_fusion

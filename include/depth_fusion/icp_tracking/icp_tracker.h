@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "depth_fusion/common/stage_timers.h"
 #include "depth_fusion/compute/compute_context.h"
@@ -34,6 +35,10 @@ class IcpTracker {
   // mean that it is lost.
   TrackingResult track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior,
                        StageTimers& timers);
+  // Aligns the frame to the view from each of the starts (T_W_D, one at least) at the coarsest level, and
+  // returns the pose by which the view explains most of the frame: a start for track().
+  Pose bestStart(const DepthFrame& frame, const ModelView& view, const std::vector<Pose>& starts,
+                 StageTimers& timers);
 
  private:
   MatchGates gatesAt(int level) const;

@@ -17,6 +17,9 @@ class MotionModel {
   MotionPrior predict(double stamp_s, const std::vector<FrameMotion>& measured);
   // The frame at stamp_s is known to be at T_W_D. Returns the velocity from the frame before to there.
   const Vector6d& moveTo(double stamp_s, const Pose& T_W_D);
+  // Where else the sensor may be at the frame predicted last: at its last known pose, and where it gets by
+  // the velocity that it had before that. Empty if no pose was ever known.
+  std::vector<MotionPrior> otherStarts() const;
   // The pose of the frame is not known; the sensor is expected where the frame's prior was.
   void lose() { tracked_.reset(); }
   // The pose of the frame is not known; the sensor is expected at T_W_D.
@@ -33,6 +36,8 @@ class MotionModel {
   Pose T_W_expected_ = Pose::Identity();  // the last known pose, moved on by the motions measured since
   double stamp_s_ = 0.0;                  // of the frame predicted last
   Vector6d velocity_ = Vector6d::Zero();
+  std::optional<StampedPose> last_known_;       // as tracked_, and kept through losses
+  Vector6d known_velocity_ = Vector6d::Zero();  // in D, at last_known_
 };
 
 }  // namespace depth_fusion

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "depth_fusion/frames/textured_frame.h"
-#include "depth_fusion/icp_tracking/icp_tracker.h"
+#include "depth_fusion/pipeline/hypothesis_tracker.h"
 #include "depth_fusion/pipeline/motion_model.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
@@ -64,7 +64,7 @@ class TrackingSession {
   // A frame with a pose that is not concluded.
   struct FoundFrame {
     FrameFeatures features;
-    Pose T_W_D;
+    TrackingResult result;
     MotionModel unless_fused;
   };
 
@@ -78,11 +78,13 @@ class TrackingSession {
   TrackingResult relocalise(const MotionPrior& prior, const FrameFeatures& features,
                             const TrackingResult& lost, StageTimers& timers);
   TrackingResult trackFrom(const MotionPrior& prior, StageTimers& timers);
+  // The result, or that the frame is lost if too little of it fits the map.
+  TrackingResult orStillLost(TrackingResult result) const;
 
   PipelineParameters parameters_;
   RenderView render_;
   DepthPreprocessor preprocessor_;
-  IcpTracker tracker_;
+  HypothesisTracker tracker_;
   Relocaliser relocaliser_;
   TextureOdometry matcher_;  // of frames to keyframes
   MotionModel motion_;

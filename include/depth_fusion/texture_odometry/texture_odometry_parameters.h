@@ -23,7 +23,7 @@ struct TextureOdometryParameters {
   float coarse_inlier_px = 3.0f;
   float fine_inlier_px = 1.5f;
   float inlier_depth_sigmas = 4.0f;
-  float sigma_scale = 15.0f;
+  float shared_error = 0.06f;
 
   ParameterTable table();
 };

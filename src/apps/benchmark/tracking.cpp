@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/benchmark/starts.h"
 #include "apps/benchmark/tracking_inputs.h"
 #include "common/io/text_file.h"
 #include "depth_fusion/common/error.h"
@@ -26,7 +27,7 @@ struct Variant {
 // A prior without weight is where ICP starts, and no more.
 const std::vector<Variant> kAblation = {
     {"ICP", {{"texture_odometry/enabled", "false"}, {"icp_tracking/degeneracy_threshold", "0"}}},
-    {"ICP + texture", {{"texture_odometry/sigma_scale", "1000"}, {"icp_tracking/degeneracy_threshold", "0"}}},
+    {"ICP + texture", {{"texture_odometry/shared_error", "1000"}, {"icp_tracking/degeneracy_threshold", "0"}}},
     {"ICP + texture + eigenvalues", {}}};
 
 const std::vector<Variant> kGates = {
@@ -72,15 +73,6 @@ void measure(const Trajectory& trajectory, const Trajectory& truth, Outcome& out
     outcome.drift_m = std::max(outcome.drift_m, error_m);
     if ((pair.T_W_estimate.translation() - pair.T_W_truth.translation()).norm() > kWrong_m) ++outcome.wrong;
   }
-}
-
-// Reads all the frames at once, for several variants to run on.
-std::vector<RgbdFrame> framesOf(const TrackingInput& input) {
-  const std::unique_ptr<Recording> recording = input.open();
-  std::vector<RgbdFrame> frames;
-  while (std::optional<RgbdFrame> frame = recording->next()) frames.push_back(std::move(*frame));
-  check(!frames.empty(), input.name + " has no frames");
-  return frames;
 }
 
 Outcome runVariant(ComputeContext& compute, const TrackingInput& input, const std::vector<RgbdFrame>& frames,
@@ -171,7 +163,10 @@ void addTrackingBenchmark(CLI::App& app, TrackingBenchmark& options) {
   command->add_option("--device", options.device, "OpenCL device, as of reconstruct");
   command->add_option("--input", options.inputs, "only these inputs");
   command->add_flag("--gates", options.gates, "what each gate brings and costs: one left out in turn");
-  command->callback([&options] { runBenchmark(options); });
+  command->add_option("--starts", options.starts,
+                      "so many starts at random frames and frame rates, in place of the table");
+  command->add_option("--seed", options.seed, "of the random starts")->capture_default_str();
+  command->callback([&options] { options.starts > 0 ? runStarts(options) : runBenchmark(options); });
 }
 
 }  // namespace depth_fusion

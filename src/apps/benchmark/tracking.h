@@ -15,6 +15,8 @@ struct TrackingBenchmark {
   std::string device;
   std::vector<std::string> inputs;  // all if empty
   bool gates = false;
+  size_t starts = 0;
+  unsigned seed = 1;  // of the starts
 };
 
 // Adds the subcommand, which runs as it is parsed.

@@ -33,7 +33,7 @@ TrackingInput recorded(const std::string& name, const std::string& folder, const
   input.name = name;
   RecordingOptions options;
   if (!camera.empty()) readCamera(camera, options);
-  loadParameterFile(input.parameters.table(), params);
+  if (!params.empty()) loadParameterFile(input.parameters.table(), params);
   input.parameters.model_view.half_size =
       false;  // to compare with other inputs, and with benchmarks of before
   input.open = [folder, options, compute = std::make_shared<ComputeContext>(),
@@ -58,6 +58,27 @@ TrackingInput withInterruption(TrackingInput input, const std::string& what,
   return input;
 }
 
+// The real and rendered recordings that are there.
+std::vector<TrackingInput> recordedInputs(const TrackingBenchmark& options) {
+  struct Known {
+    std::string name, params, camera;
+  };
+  const std::string data = dataFolder(options.data);
+  const std::string kinect = options.cfg + "/kinect_v1.yaml";
+  std::vector<TrackingInput> inputs;
+  for (const Known& known :
+       {Known{"tum_fr1_xyz", kinect, options.cfg + "/cameras/tum_freiburg1.yaml"},
+        Known{"redkitchen", kinect, ""}, Known{"icl_office_kt0", "", data + "/icl_office_kt0/camera.yaml"}}) {
+    const std::string folder = data + "/" + known.name;
+    if (std::filesystem::exists(folder)) {
+      inputs.push_back(recorded(known.name, folder, known.params, known.camera));
+    } else {
+      std::cout << "there is no " << folder << "; see --data" << std::endl;
+    }
+  }
+  return inputs;
+}
+
 std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
   const TrackingInput white_room = simulated("white_room", "white_room");
   std::vector<TrackingInput> inputs = {simulated("wall", "wall"),
@@ -66,20 +87,27 @@ std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
                                        white_room,
                                        withInterruption(white_room, "_jump", {0, 50}),
                                        simulated("room_fast", "room", 0.5, 60.0)};
-  const std::string kinect = options.cfg + "/kinect_v1.yaml";
-  const std::string data = dataFolder(options.data);
-  const std::string tum = data + "/tum_fr1_xyz", kitchen = data + "/redkitchen";
-  if (std::filesystem::exists(tum)) {
-    const TrackingInput desk =
-        recorded("tum_fr1_xyz", tum, kinect, options.cfg + "/cameras/tum_freiburg1.yaml");
-    inputs.insert(inputs.end(), {desk, atTenHertz(desk), withInterruption(desk, "_blackout", {30, 100}),
-                                 withInterruption(desk, "_jump", {0, 100})});
-  }
-  if (std::filesystem::exists(kitchen)) inputs.push_back(recorded("redkitchen", kitchen, kinect, ""));
-  if (!std::filesystem::exists(tum) || !std::filesystem::exists(kitchen)) {
-    std::cout << "the real recordings are not all in " << data << "; see --data" << std::endl;
+  for (const TrackingInput& input : recordedInputs(options)) {
+    inputs.push_back(input);
+    if (input.name != "tum_fr1_xyz") continue;
+    inputs.insert(inputs.end(), {atTenHertz(input), withInterruption(input, "_blackout", {30, 100}),
+                                 withInterruption(input, "_jump", {0, 100})});
   }
   return inputs;
+}
+
+std::vector<TrackingInput> chosenOf(const std::vector<TrackingInput>& all, const TrackingBenchmark& options) {
+  if (options.inputs.empty()) return all;
+  std::vector<TrackingInput> chosen;
+  for (const std::string& name : options.inputs) {
+    const auto input =
+        std::find_if(all.begin(), all.end(), [&](const TrackingInput& i) { return i.name == name; });
+    std::string names;
+    for (const TrackingInput& known : all) names += (names.empty() ? "" : ", ") + known.name;
+    check(input != all.end(), "there is no input '" + name + "'; the inputs are: " + names);
+    chosen.push_back(*input);
+  }
+  return chosen;
 }
 
 }  // namespace
@@ -99,19 +127,24 @@ TrackingInput roomInput(int frames) {
   return input;
 }
 
+std::vector<RgbdFrame> framesOf(const TrackingInput& input) {
+  const std::unique_ptr<Recording> recording = input.open();
+  std::vector<RgbdFrame> frames;
+  while (std::optional<RgbdFrame> frame = recording->next()) frames.push_back(std::move(*frame));
+  check(!frames.empty(), input.name + " has no frames");
+  return frames;
+}
+
 std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options) {
-  std::vector<TrackingInput> all = allInputs(options);
-  if (options.inputs.empty()) return all;
-  std::vector<TrackingInput> chosen;
-  for (const std::string& name : options.inputs) {
-    const auto input =
-        std::find_if(all.begin(), all.end(), [&](const TrackingInput& i) { return i.name == name; });
-    std::string names;
-    for (const TrackingInput& known : all) names += (names.empty() ? "" : ", ") + known.name;
-    check(input != all.end(), "there is no input '" + name + "'; the inputs are: " + names);
-    chosen.push_back(*input);
-  }
-  return chosen;
+  return chosenOf(allInputs(options), options);
+}
+
+std::vector<TrackingInput> startInputs(const TrackingBenchmark& options) {
+  std::vector<TrackingInput> inputs = {
+      simulated("wall", "wall"), simulated("floor_wall", "floor_wall"), simulated("cylinder", "cylinder"),
+      simulated("white_room", "white_room"), simulated("room_fast", "room", 0.5, 60.0)};
+  for (TrackingInput& input : recordedInputs(options)) inputs.push_back(std::move(input));
+  return chosenOf(inputs, options);
 }
 
 }  // namespace depth_fusion

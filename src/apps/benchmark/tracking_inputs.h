@@ -23,5 +23,10 @@ TrackingInput roomInput(int frames);
 
 // The inputs that options.inputs names, or all. Throws Error for a name that is not known.
 std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options);
+// The same of the inputs that random starts are made in.
+std::vector<TrackingInput> startInputs(const TrackingBenchmark& options);
+
+// Reads all the frames at once, for several runs.
+std::vector<RgbdFrame> framesOf(const TrackingInput& input);
 
 }  // namespace depth_fusion

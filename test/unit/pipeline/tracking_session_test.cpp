@@ -70,6 +70,13 @@ class FusedRoom {
     return results;
   }
 
+  // Has the frame's texture say, for certain, that the sensor moved on by so much more.
+  void mislead(int i, const Pose& error) {
+    FrameMotion& motion = textures_[i].motion;
+    motion.T_previous_current = motion.T_previous_current * error;
+    motion.covariance = 1e-6 * Matrix6d::Identity();
+  }
+
   TrackingSession& session() { return session_; }
   // What the map shows; null: nothing.
   const ModelView*& view() { return view_; }
@@ -134,6 +141,33 @@ TEST_P(TrackingSessionTest, AnotherFrameThanTheOnePreparedIsAnError) {
   room_.session().conclude(true);
   expectError([&] { room_.step(2); }, {"not the one prepared ahead"});
   EXPECT_EQ(room_.step(1).status, TrackingStatus::kTracking);
+}
+
+Pose trueMotion(int from, int to) { return roomFrames()[from].T_W_D->inverse() * *roomFrames()[to].T_W_D; }
+
+TEST(TrackingSessionPrior, AConfidentTextureThatDepthContradictsIsDropped) {
+  for (const int misled : {1, 6}) {
+    FusedRoom room(true);
+    room.mislead(misled, poseFromTwist((Vector6d() << 0.0, 0.02, 0.0, 0.08, 0.0, 0.02).finished()));
+    const std::vector<TrackingResult> results = room.trackAll(true);
+    const TrackingResult& result = results[misled];
+    EXPECT_LT((trueMotion(0, misled).inverse() * result.T_W_D).translation().norm(), 0.01) << misled;
+    EXPECT_EQ(result.dropped_prior, "texture") << misled;
+    EXPECT_NE(result.prior, "texture") << misled;
+    EXPECT_GT(result.prior_sigmas, 4.0) << misled;
+    for (int i = 1; i < kFrames; ++i) {
+      if (i != misled) EXPECT_EQ(results[i].dropped_prior, "") << i;
+    }
+  }
+}
+
+TEST_P(TrackingSessionTest, ASensorThatWasMovedWhileItWasLostIsSearchedFor) {
+  room_.fuse(0, room_.step(0).T_W_D);
+  room_.session().conclude(true);
+  room_.session().reset(poseFromTwist((Vector6d() << 0.0, 0.1, 0.0, 0.1, 0.0, 0.05).finished()));
+  const TrackingResult result = room_.step(1);
+  ASSERT_NE(result.status, TrackingStatus::kLost) << result.reason;
+  EXPECT_LT((trueMotion(0, 1).inverse() * result.T_W_D).translation().norm(), 0.015);
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutTexture, TrackingSessionTest, testing::Bool());

@@ -183,7 +183,7 @@ TEST(TextureOdometry, TheSameAtEveryRun) {
 TEST(TextureOdometry, CovarianceIsThatOfTheErrors) {
   constexpr int kTrials = 30;
   TextureOdometryParameters parameters;
-  parameters.sigma_scale = 1.0f;
+  parameters.shared_error = 0.0f;
   Vector6d squared_errors = Vector6d::Zero(), variances = Vector6d::Zero();
   for (int trial = 0; trial < kTrials; ++trial) {
     const TextureOdometryResult result = motionBetween(sensed(firstView(), 100 + 2 * trial),

@@ -1,0 +1,51 @@
+// A frame's pose from several hypotheses of where the sensor is: a prior is one of them, and is checked.
+#pragma once
+
+#include <vector>
+
+#include "depth_fusion/icp_tracking/icp_tracker.h"
+
+namespace depth_fusion {
+
+class HypothesisTracker {
+ public:
+  HypothesisTracker(ComputeContext& compute, const IcpTrackingParameters& parameters,
+                    const CameraIntrinsics& camera)
+      : tracker_(compute, parameters, camera) {}
+
+  void setParameters(const IcpTrackingParameters& parameters) { tracker_.setParameters(parameters); }
+
+  // Tracks the frame from the prior. Where the view then explains less of the frame than of those before, or
+  // where depth contradicts the prior, it tracks from the other starts, too, and at last from all around
+  // them; the pose by which the view explains most of the frame wins. The frame is lost if its matches fit
+  // worse than usual even there.
+  TrackingResult track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior,
+                       const std::vector<MotionPrior>& others, StageTimers& timers);
+  // The same with what is all around the start, for a sensor that is lost.
+  TrackingResult search(const DepthFrame& frame, const ModelView& view, const MotionPrior& start,
+                        StageTimers& timers);
+
+  // The frame is fused: it says what is usual.
+  void accept(const TrackingResult& result);
+  // Forgets what is usual.
+  void reset() { usual_ = {}; }
+
+ private:
+  // Running means over the frames accepted.
+  struct Usual {
+    int frames = 0;
+    double explained = 0.0, match_quality = 0.0;
+  };
+
+  // Nothing speaks for looking elsewhere.
+  bool isConvincing(const TrackingResult& result) const;
+  // The matches fit as well as usual.
+  bool fitsAsUsual(const TrackingResult& result) const;
+  TrackingResult orLost(TrackingResult result) const;
+  TrackingResult lost(TrackingResult result) const;
+
+  IcpTracker tracker_;
+  Usual usual_;
+};
+
+}  // namespace depth_fusion

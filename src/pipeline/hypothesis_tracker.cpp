@@ -1,0 +1,115 @@
+#include "depth_fusion/pipeline/hypothesis_tracker.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace depth_fusion {
+namespace {
+
+constexpr int kFewFrames = 5;                // do not say what is usual
+constexpr double kMemory_frames = 30.0;      // of how well matches usually fit
+constexpr double kShortMemory_frames = 5.0;  // of how much is usually explained
+constexpr double kLessExplained = 0.9;       // than usual, from which on other starts are tried
+constexpr double kHardlyExplained = 0.7;     // of what is usual, from which on all around is searched
+constexpr double kUnexplained = 0.5;         // of what is usual, from which on the frame is lost
+constexpr double kLeastExplained = 0.3;      // of a frame by a map of few frames, else it is lost
+constexpr double kWorseMatches = 0.85;       // than usual, from which on the frame is lost
+constexpr double kDisagreement = 4.0;        // between prior and depth, in standard deviations
+// A hypothesis wins over those before it if it explains more by so much.
+constexpr double kClearlyMore = 1.03;
+
+// What is searched around a pose, in steps about as long as ICP's way to a match.
+constexpr double kSearchStep_m = 0.08;
+constexpr double kSearchStep_rad = 0.06;
+constexpr int kSearchSteps = 2;
+
+std::vector<Pose> around(const Pose& T_W_D) {
+  std::vector<Pose> poses = {T_W_D};
+  for (int step = 1; step <= kSearchSteps; ++step) {
+    for (int axis = 0; axis < 6; ++axis) {
+      for (const double sign : {-1.0, 1.0}) {
+        Vector6d twist = Vector6d::Zero();
+        twist[axis] = sign * step * (axis < 3 ? kSearchStep_rad : kSearchStep_m);
+        poses.push_back(T_W_D * poseFromTwist(twist));
+      }
+    }
+  }
+  return poses;
+}
+
+bool isLost(const TrackingResult& result) { return result.status == TrackingStatus::kLost; }
+
+bool explainsMore(const TrackingResult& a, const TrackingResult& b) {
+  if (isLost(a) || isLost(b)) return !isLost(a);
+  return a.explained > kClearlyMore * b.explained;
+}
+
+}  // namespace
+
+TrackingResult HypothesisTracker::track(const DepthFrame& frame, const ModelView& view,
+                                        const MotionPrior& prior, const std::vector<MotionPrior>& others,
+                                        StageTimers& timers) {
+  TrackingResult best = tracker_.track(frame, view, prior, timers);
+  if (isConvincing(best)) return best;
+  const TrackingResult first = best;
+  for (const MotionPrior& other : others) {
+    TrackingResult result = tracker_.track(frame, view, other, timers);
+    if (explainsMore(result, best)) best = std::move(result);
+  }
+  if (!fitsAsUsual(best) || best.explained < kHardlyExplained * usual_.explained ||
+      usual_.frames < kFewFrames) {
+    for (const MotionPrior& other : others) {
+      TrackingResult result = search(frame, view, other, timers);
+      if (explainsMore(result, best)) best = std::move(result);
+    }
+  }
+  if (best.prior != first.prior && prior.covariance) {
+    best.dropped_prior = first.prior;
+    best.prior_sigmas = first.prior_sigmas;
+  }
+  const double needed = usual_.frames < kFewFrames ? kLeastExplained : kUnexplained * usual_.explained;
+  return best.explained < needed ? lost(std::move(best)) : orLost(std::move(best));
+}
+
+TrackingResult HypothesisTracker::search(const DepthFrame& frame, const ModelView& view,
+                                         const MotionPrior& start, StageTimers& timers) {
+  const Pose T_W_D = tracker_.bestStart(frame, view, around(start.T_W_D), timers);
+  return orLost(tracker_.track(frame, view, {T_W_D, std::nullopt, "search"}, timers));
+}
+
+void HypothesisTracker::accept(const TrackingResult& result) {
+  if (!(result.inlier_fraction > 0.0)) return;  // the first frame of a map
+  ++usual_.frames;
+  const auto average = [this](double& mean, double value, double memory_frames) {
+    mean += std::max(1.0 / usual_.frames, 1.0 / memory_frames) * (value - mean);
+  };
+  average(usual_.explained, result.explained, kShortMemory_frames);
+  average(usual_.match_quality, result.matchQuality(), kMemory_frames);
+}
+
+bool HypothesisTracker::isConvincing(const TrackingResult& result) const {
+  return !isLost(result) && usual_.frames >= kFewFrames && result.prior_sigmas < kDisagreement &&
+         result.explained >= kLessExplained * usual_.explained && fitsAsUsual(result);
+}
+
+bool HypothesisTracker::fitsAsUsual(const TrackingResult& result) const {
+  return !isLost(result) && result.matchQuality() >= kWorseMatches * usual_.match_quality;
+}
+
+TrackingResult HypothesisTracker::orLost(TrackingResult result) const {
+  return isLost(result) || fitsAsUsual(result) ? result : lost(std::move(result));
+}
+
+TrackingResult HypothesisTracker::lost(TrackingResult result) const {
+  char reason[300];
+  std::snprintf(
+      reason, sizeof(reason),
+      "the best pose found may be a wrong one: the map explains %.0f %% of the points, where %.0f %% is "
+      "usual, and fits those that match by %.2f, where %.2f is usual",
+      100.0 * result.explained, 100.0 * usual_.explained, result.matchQuality(), usual_.match_quality);
+  result.status = TrackingStatus::kLost;
+  result.reason = reason;
+  return result;
+}
+
+}  // namespace depth_fusion
