@@ -8,6 +8,7 @@
 #include "depth_fusion/preprocessing/depth_correction.h"
 #include "depth_fusion/preprocessing/depth_range.h"
 #include "preprocessing/preprocessing_kernels.h"
+#include "preprocessing/sensor_noise.h"
 
 namespace depth_fusion {
 namespace {
@@ -78,13 +79,13 @@ void DepthPreprocessor::setParameters(const PreprocessingParameters& parameters,
   const bool new_offsets = parameters.depth_offsets_per_m != parameters_.depth_offsets_per_m;
   parameters_ = limited(parameters, sensor);
   sensor_ = sensor;
+  noise_.reset();
   if (new_offsets) uploadOffsets();
 }
 
 const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vector6d& velocity) {
   DepthFrame& result = *results_.next();
   result.depth_step_m = parameters_.max_range_m / MEASUREMENT_DEPTH_MAX;
-  for (DepthLevel& level : result.levels) level.sensor = sensor_;
   const CameraIntrinsics& camera = result.levels[0].camera;
   const bool is_u16 = frame.depth.type() == CV_16UC1;
   check(is_u16 || frame.depth.type() == CV_32FC1, "depth images must hold 16-bit integers or 32-bit floats");
@@ -92,6 +93,8 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
   check(frame.depth.cols == camera.width && frame.depth.rows == camera.height,
         "a depth image is " + sizeText(frame.depth.cols, frame.depth.rows) + ", the intrinsics are for " +
             sizeText(camera.width, camera.height));
+  if (!noise_) noise_ = raisedToNoise(frame, {parameters_.min_range_m, parameters_.max_range_m}, sensor_);
+  for (DepthLevel& level : result.levels) level.sensor = *noise_;
   const cv::Mat depth = frame.depth.isContinuous() ? frame.depth : frame.depth.clone();
   input_.write(depth.data, depth.total() * depth.elemSize());
 

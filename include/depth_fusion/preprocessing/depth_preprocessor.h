@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,9 @@ class DepthPreprocessor {
   void setParameters(const PreprocessingParameters& parameters, const DepthSensorParameters& sensor);
   // `velocity` is the sensor's in its own frame D: rotation (rad/s), translation (m/s). With it the depth
   // becomes that of the moment of the stamp (parameters readout_s, stamp_delay_s). The result stays valid
-  // until the next call. Throws Error if depth or weights have another type or size than expected.
+  // until the next call. If the first frame has far more noise than the sensor model says, the model is
+  // raised to that, in this frame and the others (DepthLevel::sensor). Throws Error if depth or weights have
+  // another type or size than expected.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity = Vector6d::Zero());
   // Does the same as a step of a frame's way: it is timed, and done when the call returns.
   const DepthFrame& process(const RgbdFrame& frame, const Vector6d& velocity, StageTimers& timers);
@@ -42,6 +45,7 @@ class DepthPreprocessor {
   ComputeContext& compute_;
   PreprocessingParameters parameters_;  // with the range that the sensor's noise allows
   DepthSensorParameters sensor_;
+  std::optional<DepthSensorParameters> noise_;  // the sensor with the noise that it was seen to have
   DeviceBuffer input_;
   DeviceBuffer skewed_depth_;
   DeviceBuffer weights_;  // empty until a frame has some

@@ -1,0 +1,17 @@
+// The noise that a depth image has, against what the sensor model says.
+#pragma once
+
+#include "depth_fusion/frames/rgbd_frame.h"
+#include "depth_fusion/preprocessing/preprocessing_parameters.h"
+
+namespace depth_fusion {
+
+// Measures the axial noise by the second differences of neighbouring pixels, which surfaces hardly have
+// (J. Immerkaer, "Fast Noise Variance Estimation", CVIU 1996, with medians in place of means, for edges).
+// Returns the model, with sigma_base_m and sigma_growth_per_m raised to what fits the image, if that has over
+// twice the model's noise anywhere in the range; else, or if too little depth is there to say, the model
+// itself.
+DepthSensorParameters raisedToNoise(const RgbdFrame& frame, const DepthRange& range,
+                                    const DepthSensorParameters& model);
+
+}  // namespace depth_fusion
