@@ -73,9 +73,9 @@ bool shareFace(CubeEdge a, CubeEdge b) {
 std::vector<CubeLoop> contourLoops(int cube_case) {
   std::array<CubeEdge, 32> successors = contourSuccessors(cube_case);
   std::vector<CubeLoop> loops;
-  for (CubeEdge first = 0; first < successors.size(); ++first) {
+  for (size_t first = 0; first < successors.size(); ++first) {
     CubeLoop loop;
-    for (CubeEdge edge = first; successors[edge] != kNone;) {
+    for (auto edge = static_cast<CubeEdge>(first); successors[edge] != kNone;) {
       loop.push_back(edge);
       edge = std::exchange(successors[edge], kNone);
     }

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cstring>
+#include <string>
 
 #include "depth_fusion/surface_mesh/ply.h"
 #include "surface_mesh/whole_file.h"
@@ -11,6 +11,13 @@ constexpr size_t kColoredVertexBytes = sizeof(MeshVertex) + sizeof(MeshColor);
 constexpr size_t kFaceBytes = 1 + sizeof(MeshTriangle);
 constexpr size_t kFacesPerWrite = 16384;
 constexpr unsigned char kCorners = 3;
+
+// Puts the bytes of a value where `place` points, and returns the place behind them.
+template <class Value>
+unsigned char* put(const Value& value, unsigned char* place) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
+  return std::copy(bytes, bytes + sizeof(Value), place);
+}
 
 std::string header(const MeshSize& size) {
   return "ply\nformat binary_little_endian 1.0\ncomment depth_fusion, metres\nelement vertex " +
@@ -43,10 +50,7 @@ void PlyWriter::addVertices(const MeshVertex* vertices, const MeshColor* colors,
     bytes = count * kColoredVertexBytes;
     colored_vertices_.resize(bytes);
     unsigned char* next = colored_vertices_.data();
-    for (size_t i = 0; i < count; ++i, next += kColoredVertexBytes) {
-      std::memcpy(next, &vertices[i], sizeof(MeshVertex));
-      std::memcpy(next + sizeof(MeshVertex), &colors[i], sizeof(MeshColor));
-    }
+    for (size_t i = 0; i < count; ++i) next = put(colors[i], put(vertices[i], next));
     data = colored_vertices_.data();
   }
   file_->writeAt(vertex_offset_, data, bytes);
@@ -57,10 +61,8 @@ void PlyWriter::addTriangles(const MeshTriangle* triangles, size_t count) {
   faces_.resize(kFacesPerWrite * kFaceBytes);
   while (count > 0) {
     const size_t batch = std::min(count, kFacesPerWrite);
-    for (size_t i = 0; i < batch; ++i) {
-      faces_[i * kFaceBytes] = kCorners;
-      std::memcpy(&faces_[i * kFaceBytes + 1], &triangles[i], sizeof(MeshTriangle));
-    }
+    unsigned char* next = faces_.data();
+    for (size_t i = 0; i < batch; ++i) next = put(triangles[i], put(kCorners, next));
     file_->writeAt(face_offset_, faces_.data(), batch * kFaceBytes);
     face_offset_ += batch * kFaceBytes;
     triangles += batch;
