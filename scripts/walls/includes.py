@@ -15,6 +15,13 @@ def core_problem(path, include):
     return None
 
 
+def robot_problem(path, include):
+    if path.startswith("src/ros/") and layers.WORKSHOP_LIBRARIES.match(include.name):
+        return (f"what a robot loads includes {include.name}, which only the workshop has; move what needs it to "
+                "src/tools or src/apps")
+    return None
+
+
 def data_problem(path, include):
     if not layers.is_data(path) or not include.path or layers.is_data(include.path):
         return None
@@ -70,7 +77,7 @@ def check(tree, _):
     paths = tree.files(("include", "src"))
     for path in paths:
         for include in tree.includes[path]:
-            for find in (core_problem, data_problem, floor_problem if include.path else None):
+            for find in (core_problem, robot_problem, data_problem, floor_problem if include.path else None):
                 problem = find and find(path, include)
                 if problem:
                     problems.append(f"{path}:{include.line}: {problem}")

@@ -37,10 +37,15 @@ EXCEPTIONS = {
 CORE_LIBRARIES = re.compile(
     r"[a-z_]+$|(unistd|fcntl)\.h$|sys/|Eigen/|opencv2/|CL/|yaml-cpp/|OpenNI\.h$|meshoptimizer\.h$"
 )
-# Of these, what public headers keep to themselves, so that whoever uses the core needs it not.
+# What only the workshop and the apps have, so that a robot's build needs it not.
+WORKSHOP_LIBRARIES = re.compile(r"CLI/|nlohmann/|benchmark/")
+# Of the core's, what public headers keep to themselves, so that whoever uses the core needs it not.
 PRIVATE_LIBRARIES = re.compile(r"CL/|yaml-cpp/|OpenNI\.h$|meshoptimizer\.h$")
 
-# What data headers may include of ours.
+# What travels between stages, and between nodelets.
+TRAVELS = ("include/depth_fusion/frames/", "src/ros/in_process/frames.h", "src/ros/in_process/process_message.h")
+
+# What data headers may include of ours, beside other data headers.
 DATA_FLOORS = ("kernels", "common", "geometry", "compute", "frames")
 
 
@@ -64,5 +69,5 @@ def is_core(path):
 
 
 def is_data(path):
-    """A header of what travels or of what a stage is told."""
-    return is_core(path) and (path.startswith("include/depth_fusion/frames/") or path.endswith("_parameters.h"))
+    """A header of what travels, or of what a stage or a nodelet is told."""
+    return path.startswith(TRAVELS) or path.endswith("_parameters.h")

@@ -1,4 +1,4 @@
-#include "depth_fusion/acquisition/rgbd_device.h"
+#include "depth_fusion/acquisition/device_parameters.h"
 
 namespace depth_fusion {
 namespace {

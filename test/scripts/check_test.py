@@ -81,6 +81,19 @@ class Includes(Check):
             self.expect_problem("includes", f"{data}:3:", "the worker")
             self.write(f"include/depth_fusion/{data}", GOOD[f"include/depth_fusion/{data}"])
 
+    def test_a_worker_in_a_data_header_of_ros(self):
+        for data in ("output/picture_parameters.h", "nodelets/mesh_nodelet_parameters.h", "in_process/frames.h"):
+            path = f"src/ros/{data}"
+            self.write(path, '#pragma once\n\n#include "depth_fusion/tsdf_fusion/tsdf_fusion_parameters.h"\n')
+            self.expect_good("includes")
+            self.write(path, '#pragma once\n\n#include "depth_fusion/map/map.h"\n')
+            self.expect_problem("includes", f"{path}:3:", "the worker")
+            (self.root / path).unlink()
+
+    def test_a_library_of_the_workshop_in_a_nodelet(self):
+        self.plant("src/ros/nodelets/nodelet.cpp", "#include <nlohmann/json.hpp>")
+        self.expect_problem("includes", "src/ros/nodelets/nodelet.cpp:3:", "nlohmann/json.hpp", "the workshop")
+
     def test_a_floor_above(self):
         self.plant("include/depth_fusion/common/counter.h", '#include "depth_fusion/map/map.h"')
         self.expect_problem("includes", "common/counter.h:3:", "a floor above", "common -> map -> common")

@@ -15,18 +15,6 @@ constexpr char kPaused[] = "paused";
 
 }  // namespace
 
-Parameter LiveTrackerParameters::useTextureRow() {
-  constexpr char kHelp[] =
-      "true: frames come from texture_odometry; false: from the topics, with the last pose as the prior";
-  return atStartOnly(flag("texture_odometry", &use_texture, kHelp));
-}
-
-Parameter LiveTrackerParameters::onClockJumpRow() {
-  constexpr char kHelp[] =
-      "what a clock that goes back does to the map: begin anew, or keep it and find the sensor in it";
-  return choice("on_clock_jump", &on_clock_jump, {"reset", "keep"}, kHelp);
-}
-
 PipelineParameters LiveTracker::pipelineParameters() const {
   PipelineParameters parameters = parameters_.pipeline;
   if (texture_ != nullptr) parameters.texture_odometry = *texture_;
@@ -116,7 +104,7 @@ void LiveTracker::apply(const FusionNews& news) {
 void LiveTracker::catchUp(const SensorFrame& frame) {
   if (frame.clock_jumps != std::exchange(clock_jumps_, frame.clock_jumps)) {
     session_->lose();
-    if (parameters_.on_clock_jump == "reset" && fusion_.mode() == MapMode::kMapping) {
+    if (parameters_.resetsOnClockJump() && fusion_.mode() == MapMode::kMapping) {
       changeMap(nullptr);
       fusion_.beginMap();
     }

@@ -10,21 +10,12 @@
 
 #include "depth_fusion/pipeline/tracking_session.h"
 #include "ros/in_process/fusion_link.h"
+#include "ros/in_process/live_tracker_parameters.h"
 #include "ros/in_process/skipped_frames.h"
 
 namespace depth_fusion {
 
 constexpr char kLost[] = "lost";
-
-struct LiveTrackerParameters {
-  PipelineParameters pipeline;  // those of texture odometry come with the frames
-  std::string device;
-  bool use_texture = true;  // false: frames come without texture
-  std::string on_clock_jump = "reset";
-
-  Parameter useTextureRow();
-  Parameter onClockJumpRow();
-};
 
 // What became of a frame.
 struct LiveResult {

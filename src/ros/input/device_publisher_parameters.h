@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "depth_fusion/acquisition/rgbd_device.h"
+#include "depth_fusion/acquisition/device_parameters.h"
 #include "depth_fusion/common/parameters.h"
 
 namespace depth_fusion {

@@ -25,7 +25,6 @@ RegistrationParameters ontoColor() {
 
 RecordingPlayer::RecordingPlayer(const SourceHost& host, const PlayerParameters& parameters)
     : FrameSource(host), parameters_(parameters), registration_(parameters.device) {
-  if (!parameters_.camera_file.empty()) readCamera(parameters_.camera_file, parameters_.options);
   recording_ = open();
   ROS_INFO_STREAM(host_.name << ": " << recording_->description());
   ros::NodeHandle handle = host_.handle;
@@ -53,7 +52,11 @@ RecordingPlayer::~RecordingPlayer() {
 }
 
 std::unique_ptr<Recording> RecordingPlayer::open() const {
-  return openRecording(parameters_.recording, parameters_.options);
+  RecordingOptions options;
+  options.depth_topic = parameters_.depth_topic;
+  options.color_topic = parameters_.color_topic;
+  if (!parameters_.camera_file.empty()) readCamera(parameters_.camera_file, options);
+  return openRecording(parameters_.recording, options);
 }
 
 void RecordingPlayer::run() {

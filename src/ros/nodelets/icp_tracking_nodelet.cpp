@@ -7,6 +7,7 @@
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/output/pose_publisher.h"
 #include "ros/output/tracker_report.h"
+#include "ros/parameters/shared_rows.h"
 
 namespace depth_fusion {
 
@@ -85,15 +86,15 @@ void IcpTrackingNodelet::subscribe() {
 
 void IcpTrackingNodelet::loadAll() {
   PipelineParameters& pipeline = parameters_.pipeline;
-  ParameterTable table = pipeline.icp_tracking.table();
-  const ParameterTable own = {deviceRow(parameters_.device), parameters_.useTextureRow(),
-                              queueSizeRow(queue_size_), parameters_.onClockJumpRow()};
-  for (const ParameterTable& rows : {rgbd_.table(), pose_.table(), own})
-    table.insert(table.end(), rows.begin(), rows.end());
-  loadParameters(table, {{"registration", rgbd_.registration.table()},
-                         {"depth_sensor", pipeline.depth_sensor.table()},
-                         {"preprocessing", pipeline.preprocessing.table()},
-                         {"relocalisation", pipeline.relocalisation.table()}});
+  const ParameterTable own = joined({pipeline.icp_tracking.table(),
+                                     rgbd_.table(),
+                                     pose_.table(),
+                                     parameters_.table(),
+                                     {queueSizeRow(queue_size_)}});
+  loadParameters(own, {{"registration", rgbd_.registration.table()},
+                       {"depth_sensor", pipeline.depth_sensor.table()},
+                       {"preprocessing", pipeline.preprocessing.table()},
+                       {"relocalisation", pipeline.relocalisation.table()}});
 }
 
 void IcpTrackingNodelet::applyParameters() {

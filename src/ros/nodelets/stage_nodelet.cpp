@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "depth_fusion/common/percentile.h"
-#include "ros/parameters/ros_parameters.h"
+#include "ros/parameters/parameter_server.h"
 
 namespace depth_fusion {
 namespace {
@@ -42,16 +42,6 @@ void StageNodelet::loadParameters(const ParameterTable& own,
   for (const ParameterGroup& group : parameter_groups_)
     depth_fusion::loadParameters(group.handle, group.table);
   applyParameters();
-}
-
-Parameter StageNodelet::deviceRow(std::string& device) {
-  return atStartOnly(
-      text("device", &device, "OpenCL device: index, part of its name, cpu or gpu; empty: the best"));
-}
-
-Parameter StageNodelet::queueSizeRow(int& frames) {
-  return atStartOnly(
-      number("queue_size", &frames, 1, 1000, "frames that wait at most; the oldest are dropped"));
 }
 
 void StageNodelet::refuseFromOtherProcess(const std::string& sender, Carries what) {

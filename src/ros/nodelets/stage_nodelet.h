@@ -42,10 +42,6 @@ class StageNodelet : public nodelet::Nodelet {
   void loadParameters(const ParameterTable& own,
                       const std::vector<std::pair<std::string, ParameterTable>>& stages = {});
 
-  // Rows of parameters that several nodelets have.
-  static Parameter deviceRow(std::string& device);
-  static Parameter queueSizeRow(int& frames);
-
   // Subscribes what the nodelet `sender` of the same process publishes, frames or something else. What comes
   // from another process has no payload, so it is not taken: an error says what to do, and frames are counted
   // as dropped.

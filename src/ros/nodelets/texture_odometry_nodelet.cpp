@@ -8,6 +8,7 @@
 #include "ros/in_process/worker.h"
 #include "ros/input/rgbd_subscriber.h"
 #include "ros/nodelets/stage_nodelet.h"
+#include "ros/parameters/shared_rows.h"
 
 namespace depth_fusion {
 

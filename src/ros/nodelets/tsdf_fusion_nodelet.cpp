@@ -48,8 +48,7 @@ TsdfFusionNodelet::~TsdfFusionNodelet() {
 }
 
 void TsdfFusionNodelet::start() {
-  loadParameters(parameters_.table(deviceRow(parameters_.device), queueSizeRow(parameters_.queue_size)),
-                 parameters_.stages());
+  loadParameters(parameters_.table(), parameters_.stages());
   const PipelineParameters& pipeline = parameters_.pipeline;
   map_ = std::make_shared<SharedMap>(sharedCompute(parameters_.device), pipeline, parameters_.map_frame);
   mapper_ = std::make_unique<FrameMapper>(*map_, pipeline, parameters_.isExternal());

@@ -1,17 +1,18 @@
 #include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
 
+#include "ros/parameters/shared_rows.h"
+
 namespace depth_fusion {
 
-ParameterTable TsdfFusionNodeletParameters::table(const Parameter& device_row,
-                                                  const Parameter& queue_size_row) {
+ParameterTable TsdfFusionNodeletParameters::table() {
   const ParameterTable own = {
-      device_row,
+      deviceRow(device),
       atStartOnly(text("map_frame", &map_frame, "frame of the map")),
       atStartOnly(
           choice("tracking", &tracking, {"internal", "external"},
                  "internal: frames with poses from icp_tracking; external: frames from the topics, poses "
                  "from tf at their stamps")),
-      queue_size_row,
+      queueSizeRow(queue_size),
       atStartOnly(number("tf_queue_size", &tf_queue_size, 1, 10000,
                          "external: frames that wait for their pose at most")),
       choice("on_clock_jump", &on_clock_jump, {"reset", "keep"},

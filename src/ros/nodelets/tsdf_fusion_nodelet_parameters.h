@@ -7,7 +7,7 @@
 
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "ros/input/rgbd_parameters.h"
-#include "ros/output/model_picture.h"
+#include "ros/output/model_picture_parameters.h"
 
 namespace depth_fusion {
 
@@ -22,9 +22,8 @@ struct TsdfFusionNodeletParameters {
   std::string on_clock_jump = "reset";
   ModelPictureParameters picture;
 
-  // The nodelet's own rows, with those of `device` and `queue_size`, which are made where all nodelets have
-  // them.
-  ParameterTable table(const Parameter& device_row, const Parameter& queue_size_row);
+  // The nodelet's own rows.
+  ParameterTable table();
   // The rows of the stages that the nodelet runs beside its own.
   std::vector<std::pair<std::string, ParameterTable>> stages();
 

@@ -10,21 +10,6 @@ namespace depth_fusion {
 using visualization_msgs::MarkerArray;
 using visualization_msgs::MarkerArrayPtr;
 
-ParameterTable LiveSurfaceParameters::table() {
-  return {number("chunk_blocks", &chunk_blocks, 1, 256,
-                 "edge of the chunks in which the surface is published, in blocks"),
-          number("chunks_per_update", &chunks_per_update, 1, 10000,
-                 "chunks published at a time at most; those that changed first come first"),
-          number("refresh_chunks", &refresh_chunks, 0, 10000,
-                 "chunks that did not change, published once more at each update that has room, in turn: a "
-                 "viewer that was not noticed or lost a message has all of them in the end"),
-          number("triangle_share", &triangle_share, 0.001, 1.0,
-                 "part of a chunk's triangles that its marker keeps; below 1 takes less bandwidth and more "
-                 "of the CPU"),
-          number("point_spacing_m", &point_spacing_m, 0.0, 10.0,
-                 "edge of the cubes that have one point each; 0 = all vertices")};
-}
-
 LiveSurface::LiveSurface(const std::shared_ptr<SharedMap>& map, const LiveSurfaceParameters& live,
                          const SurfaceMeshParameters& mesh)
     : parameters_(live), map_(map) {

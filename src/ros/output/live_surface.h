@@ -9,18 +9,9 @@
 
 #include "depth_fusion/surface_mesh/mesh_chunks.h"
 #include "ros/in_process/shared_map.h"
+#include "ros/output/live_surface_parameters.h"
 
 namespace depth_fusion {
-
-struct LiveSurfaceParameters {
-  int chunk_blocks = 16;
-  int chunks_per_update = 8;
-  int refresh_chunks = 2;
-  float triangle_share = 1.0f;
-  float point_spacing_m = 0.02f;
-
-  ParameterTable table();
-};
 
 // Follows one map, chunk by chunk. For one thread; the map may change meanwhile.
 class LiveSurface {

@@ -8,12 +8,6 @@
 
 namespace depth_fusion {
 
-ParameterTable ModelPictureParameters::table() {
-  return {choice("picture", &picture, {"shaded", "colored"}, "how model_view/image shows the model view"),
-          number("picture_rate_hz", &picture_rate_hz, 0.1, 100.0,
-                 "how often model_view/image is published at most")};
-}
-
 void ModelPicture::publish(const std_msgs::Header& header, ModelViewRenderer& renderer,
                            const ModelPictureParameters& parameters, StageTimers& timers) {
   const ros::WallTime now = ros::WallTime::now();

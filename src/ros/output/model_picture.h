@@ -4,15 +4,9 @@
 #include <ros/publisher.h>
 
 #include "depth_fusion/model_view/model_view_renderer.h"
+#include "ros/output/model_picture_parameters.h"
 
 namespace depth_fusion {
-
-struct ModelPictureParameters {
-  std::string picture = "shaded";
-  float picture_rate_hz = 15.0f;
-
-  ParameterTable table();
-};
 
 class ModelPicture {
  public:

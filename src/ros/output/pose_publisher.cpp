@@ -23,19 +23,6 @@ Pose levelCamera() {
 
 }  // namespace
 
-ParameterTable PoseParameters::table() {
-  return atStartOnly(
-      {flag("publish_tf", &publish_tf, "false: poses as messages only"),
-       text("map_frame", &map_frame, "frame of the map and of the poses"),
-       text("odom_frame", &odom_frame,
-            "child of map_frame on tf, where the robot has odometry; empty: base_frame, or the root of the "
-            "camera's tree"),
-       text("base_frame", &base_frame, "child of map_frame on tf, where the robot has no odometry"),
-       flag("level_start", &level_start,
-            "true: a camera without a tf tree starts looking along x with z up; false: the map is the first "
-            "optical frame")});
-}
-
 PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_handle,
                              const PoseParameters& parameters)
     : parameters_(parameters), tree_(handle, parameters.map_frame) {

@@ -10,20 +10,10 @@
 #include <optional>
 #include <string>
 
-#include "depth_fusion/common/parameters.h"
 #include "ros/output/camera_tree.h"
+#include "ros/output/pose_parameters.h"
 
 namespace depth_fusion {
-
-struct PoseParameters {
-  bool publish_tf = true;
-  std::string map_frame = "map";
-  std::string odom_frame;
-  std::string base_frame;
-  bool level_start = true;
-
-  ParameterTable table();
-};
 
 // On tf it is map_frame -> the root of the camera's tree: odom_frame or base_frame where one is given, else
 // whatever stands at the top (odom on a robot that has it, camera_link under a driver, or the camera itself),

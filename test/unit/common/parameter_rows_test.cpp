@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "depth_fusion/acquisition/rgbd_device.h"
+#include "depth_fusion/acquisition/device_parameters.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 
 namespace depth_fusion {

@@ -1,15 +1,25 @@
-// Every member of the parameters of input and output has a row.
+// Every member of the parameters of input, output and nodelets has a row.
 #include <gtest/gtest.h>
 
+#include "ros/in_process/live_tracker_parameters.h"
 #include "ros/input/device_publisher_parameters.h"
+#include "ros/input/player_parameters.h"
 #include "ros/input/rgbd_parameters.h"
-#include "ros/output/live_surface.h"
-#include "ros/output/model_picture.h"
-#include "ros/output/pose_publisher.h"
+#include "ros/nodelets/surface_mesh_nodelet_parameters.h"
+#include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
+#include "ros/output/live_surface_parameters.h"
+#include "ros/output/model_picture_parameters.h"
+#include "ros/output/pose_parameters.h"
 #include "support/parameter_rows.h"
 
 namespace depth_fusion {
 namespace {
+
+// Its own members, those of the pairing, and none of the registration, which has a table of its own.
+constexpr size_t rgbdRows() { return fieldCount<RgbdParameters>() - 2 + fieldCount<PairingParameters>(); }
+
+// The camera and its settings, of which one lies in the other.
+constexpr size_t deviceRows() { return fieldCount<DeviceParameters>() - 1 + fieldCount<CameraSettings>(); }
 
 TEST(ParameterRows, EveryMemberOfTheOutputsHasOne) {
   expectRows<PoseParameters>();
@@ -18,9 +28,33 @@ TEST(ParameterRows, EveryMemberOfTheOutputsHasOne) {
 }
 
 TEST(ParameterRows, EveryMemberOfTheInputsHasOne) {
+  expectRows<PlayerParameters>();
   expectRows<DeviceTimeParameters>();
-  // Its own members, those of the pairing, and none of the registration, which has a table of its own.
-  expectRows<RgbdParameters>(fieldCount<RgbdParameters>() - 2 + fieldCount<PairingParameters>());
+  expectRows<DevicePublisherParameters>(fieldCount<DevicePublisherParameters>() - 2 + deviceRows() +
+                                        fieldCount<DeviceTimeParameters>());
+  expectRows<RgbdParameters>(rgbdRows());
+}
+
+TEST(ParameterRows, EveryMemberOfTheNodeletsHasOne) {
+  // Without the pipeline, the stages of which have tables of their own.
+  expectRows<LiveTrackerParameters>(fieldCount<LiveTrackerParameters>() - 1);
+  expectRows<TsdfFusionNodeletParameters>(fieldCount<TsdfFusionNodeletParameters>() - 3 +
+                                          fieldCount<TsdfFusionParameters>() + rgbdRows() +
+                                          fieldCount<ModelPictureParameters>());
+  expectRows<SurfaceMeshNodeletParameters>(fieldCount<SurfaceMeshNodeletParameters>() - 2 +
+                                           fieldCount<SurfaceMeshParameters>() +
+                                           fieldCount<LiveSurfaceParameters>());
+}
+
+// A nodelet takes the pipeline's stages by their names, bound to its own parameters.
+TEST(ParameterRows, TheStagesOfTsdfFusionAreThePipelines) {
+  TsdfFusionNodeletParameters parameters;
+  PipelineParameters pipeline;
+  const ParameterTable known = pipeline.table();
+  for (const auto& [stage, table] : parameters.stages()) {
+    for (const Parameter& row : withPrefix(stage, table)) EXPECT_NO_THROW(findParameter(known, row.name));
+    expectWithin(parameters, table);
+  }
 }
 
 }  // namespace

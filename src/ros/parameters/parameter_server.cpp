@@ -1,4 +1,4 @@
-#include "ros/parameters/ros_parameters.h"
+#include "ros/parameters/parameter_server.h"
 
 #include <limits>
 #include <sstream>
