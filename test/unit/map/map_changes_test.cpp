@@ -162,6 +162,22 @@ TEST(MapChanges, BeginAnewAfterAReset) {
   EXPECT_NE(MapOfBlocks().log.generation(), changes.generation);  // nor is it another map's
 }
 
+// What was released before a reset makes no room after it, and hides it from nobody.
+TEST(MapChanges, TellOfAResetHoweverMuchIsReleasedAfterIt) {
+  MapOfBlocks map(2);
+  map.allocate(0, 5);
+  MapSubscription follower = map.log.subscribe();
+  map.release(0);
+  map.release(1);
+  follower.take();
+  map.reset();
+  map.allocate(8, 3);
+  map.release(8);
+  const MapChanges changes = follower.take();
+  EXPECT_TRUE(changes.complete);
+  EXPECT_EQ(setOf(changes.updated), map.blocks());
+}
+
 TEST(MapChanges, NobodyIsFollowedByWhoWentAway) {
   MapOfBlocks map;
   EXPECT_FALSE(map.log.isFollowed());
