@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
+#include <string>
 #include <tuple>
 
 #include "depth_fusion/common/error.h"
@@ -125,21 +127,70 @@ TEST(BlockMap, AllocatedBlocksHoldChiAndNoWeight) {
   }
 }
 
-// Every layer says what its voxels are before anything is known of them.
+// A map with every layer that there is.
+MapParameters everyLayer(int block_size) {
+  MapParameters parameters = mapParameters(2, block_size, 1);
+  parameters.color = true;
+  return parameters;
+}
+
+// The bytes of a block of which nothing is known, as its row says.
+std::vector<uint8_t> clearBlock(const LayerRow& row, int voxels) {
+  std::vector<uint8_t> bytes;
+  for (const LayerPlane& plane : row.planes) {
+    for (int voxel = 0; voxel < voxels; ++voxel) {
+      for (size_t byte = 0; byte < plane.bytes_per_voxel; ++byte)
+        bytes.push_back(static_cast<uint8_t>(static_cast<uint32_t>(plane.clear_value) >> (8 * byte)));
+    }
+  }
+  return bytes;
+}
+
 TEST(BlockMap, AllocatedBlocksAreClearInEveryLayer) {
   for (const int m : {4, 8, 32}) {
-    MapParameters parameters = mapParameters(2, m, 1);
-    parameters.color = true;
-    BlockMap map(compute(), parameters);
-    for (const LayerRow& row : layersOf(parameters)) {
-      DeviceBuffer& layer = map.layer(row.name);
-      layer.fill(0x5a5a5a5a, layer.bytes());
-    }
+    BlockMap map(compute(), everyLayer(m));
+    for (const LayerRow& row : layersOf(map.parameters()))
+      map.layer(row.name).fill(0x5a5a5a5a, map.layer(row.name).bytes());
     ASSERT_EQ(allocate(map, windowBlocks(map)), 8u);
-    expectCleared(map);
-    const size_t colors = 8u * static_cast<size_t>(m) * m * m;
-    EXPECT_EQ(map.layer(kColorLayer).read<uint32_t>(colors), std::vector<uint32_t>(colors, 0)) << m;
+    for (const LayerRow& row : layersOf(map.parameters())) {
+      const std::vector<uint8_t> expected = clearBlock(row, m * m * m);
+      for (size_t slot = 0; slot < 8; ++slot)
+        ASSERT_EQ(map.layer(row.name).read<uint8_t>(expected.size(), slot * expected.size()), expected)
+            << row.name;
+    }
   }
+}
+
+TEST(BlockMap, NothingIsKnownOfANewVoxel) {
+  BlockMap map(compute(), everyLayer(8));
+  map.layer(kColorLayer).fill(0x5a5a5a5a, map.layer(kColorLayer).bytes());
+  ASSERT_EQ(allocate(map, windowBlocks(map)), 8u);
+  expectCleared(map);
+  EXPECT_EQ(map.layer(kColorLayer).read<uint32_t>(8 * 512), std::vector<uint32_t>(8 * 512, 0));
+}
+
+TEST(BlockMap, SnapshotKeepsEveryLayerWhileTheMapGoesOn) {
+  BlockMap map(compute(), everyLayer(8));
+  allocate(map, windowBlocks(map));
+  std::map<std::string, std::vector<uint8_t>> contents;
+  std::vector<std::string> names;
+  std::mt19937 random(4);
+  for (const LayerRow& row : layersOf(map.parameters())) {
+    std::vector<uint8_t>& content = contents[row.name];
+    content.resize(8 * row.bytesPerBlock(8));
+    std::generate(content.begin(), content.end(), [&] { return static_cast<uint8_t>(random()); });
+    map.layer(row.name).write(content.data(), content.size(), 0);
+    names.push_back(row.name);
+  }
+  const std::vector<int> states = {0, 1, 2, 3, 3, 2, 1, 0};
+  map.blockStates().write(states);
+  const auto copy = map.snapshot(names);
+  map.blockStates().fill(0, map.blockStates().bytes());
+  for (const std::string& name : names) map.layer(name).fill(0, map.layer(name).bytes());
+  for (const std::string& name : names)
+    EXPECT_EQ(copy->layer(name).read<uint8_t>(contents[name].size()), contents[name]) << name;
+  EXPECT_EQ(copy->blockStates().read<int>(8), states);
+  expectConsistent(*copy);
 }
 
 TEST(BlockMap, LayersAreThoseOfTheParameters) {
