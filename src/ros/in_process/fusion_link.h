@@ -24,7 +24,7 @@ struct FusionNews {
 class FusionLink {
  public:
   // `frames` is the topic icp_tracking/frame.
-  explicit FusionLink(ros::Publisher frames) : frames_(std::move(frames)) {}
+  explicit FusionLink(const ros::Publisher& frames) : frames_(frames) {}
 
   // From any thread:
   void receive(const MapViewMessage::ConstPtr& view);

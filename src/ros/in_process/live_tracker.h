@@ -33,8 +33,8 @@ class LiveTracker {
 
   // `frames` is the topic icp_tracking/frame. Keeps a reference to the parameters, which may change between
   // frames.
-  LiveTracker(const LiveTrackerParameters& parameters, ros::Publisher frames, Robot robot)
-      : parameters_(parameters), fusion_(std::move(frames)), robot_(std::move(robot)) {}
+  LiveTracker(const LiveTrackerParameters& parameters, const ros::Publisher& frames, Robot robot)
+      : parameters_(parameters), fusion_(frames), robot_(std::move(robot)) {}
 
   // From any thread:
   FusionLink& fusion() { return fusion_; }

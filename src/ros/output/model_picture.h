@@ -10,7 +10,7 @@ namespace depth_fusion {
 
 class ModelPicture {
  public:
-  explicit ModelPicture(ros::Publisher publisher) : publisher_(std::move(publisher)) {}
+  explicit ModelPicture(const ros::Publisher& publisher) : publisher_(publisher) {}
 
   bool hasViewers() const { return publisher_.getNumSubscribers() > 0; }
   // Publishes a picture of the last view, if somebody looks and the rate allows.

@@ -14,7 +14,7 @@ namespace depth_fusion {
 class TrackerReport {
  public:
   // `statuses` is the topic icp_tracking/status.
-  explicit TrackerReport(ros::Publisher statuses) : statuses_(statuses) {}
+  explicit TrackerReport(const ros::Publisher& statuses) : statuses_(statuses) {}
 
   // `fits_nowhere` means that the frame is lost though it could be tracked; `device` is the OpenCL device's
   // name.
