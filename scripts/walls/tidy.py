@@ -12,7 +12,8 @@ from walls.tree import Green, Result
 
 # Where all is clean; the others follow one by one (clang-tidy takes some ten seconds a file).
 ROOMS = ("common", "geometry", "compute", "frames", "map", "registration", "preprocessing", "texture_odometry", "tsdf_fusion",
-         "color_fusion", "model_view", "icp_tracking", "relocalisation", "pipeline")
+         "color_fusion", "model_view", "icp_tracking", "relocalisation", "surface_mesh", "recording", "acquisition",
+         "pipeline")
 PROBLEM = re.compile(r"^(\S+?:\d+):\d+: (?:warning|error): (.*)$", re.M)
 
 
