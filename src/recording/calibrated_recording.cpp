@@ -1,5 +1,7 @@
 #include "recording/calibrated_recording.h"
 
+#include "depth_fusion/frames/y_down.h"
+
 namespace depth_fusion {
 namespace {
 
@@ -14,6 +16,8 @@ class CalibratedRecording : public Recording {
   std::optional<RgbdFrame> next() override {
     std::optional<RgbdFrame> frame = recording_->next();
     if (!frame) return frame;
+    if (options_.depth_unit_m && frame->depth.type() == CV_16UC1)
+      frame->depth_unit_m = *options_.depth_unit_m;
     if (options_.intrinsics) {
       frame->distortion = options_.distortion;
       if (!frame->color_intrinsics) frame->color_distortion = options_.distortion;
@@ -23,6 +27,7 @@ class CalibratedRecording : public Recording {
       frame->color_distortion = options_.color_distortion;
       frame->T_C_D = options_.T_C_D;
     }
+    makeYDown(*frame);
     return frame;
   }
 

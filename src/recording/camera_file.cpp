@@ -23,6 +23,13 @@ double readNumber(const YAML::Node& root, const std::string& key) {
   }
 }
 
+std::optional<double> readDepthScale(const YAML::Node& root) {
+  if (!root["depth_scale"].IsDefined()) return std::nullopt;
+  const double scale = readNumber(root, "depth_scale");
+  check(scale > 0.0, "'depth_scale' must be positive");
+  return scale;
+}
+
 CameraFile parseCamera(const YAML::Node& root) {
   for (const auto& entry : root) {
     const std::string key = entry.first.as<std::string>();
@@ -35,8 +42,7 @@ CameraFile parseCamera(const YAML::Node& root) {
   file.camera.fy = readNumber(root, "fy");
   file.camera.cx = readNumber(root, "cx");
   file.camera.cy = readNumber(root, "cy");
-  if (root["depth_scale"].IsDefined()) file.depth_scale = readNumber(root, "depth_scale");
-  check(file.depth_scale > 0.0, "'depth_scale' must be positive");
+  file.depth_scale = readDepthScale(root);
   return file;
 }
 
@@ -80,7 +86,8 @@ CameraFile parseRosCalibration(const YAML::Node& root) {
       root["distortion_model"].IsDefined() ? root["distortion_model"].as<std::string>() : "";
   check(model == "plumb_bob" || model == "rational_polynomial",
         "'distortion_model' is '" + model + "'; known are plumb_bob and rational_polynomial");
-  file.distortion = readMatrix(root, "distortion_coefficients", {4, 5, 8});
+  file.distortion = readMatrix(root, "distortion_coefficients", {4, 5, 8, 12, 14});
+  file.depth_scale = readDepthScale(root);
   if (root["depth_to_color"].IsDefined()) file.T_C_D = readPose(root, "depth_to_color");
   return file;
 }
@@ -102,7 +109,7 @@ void writeCameraFile(const std::string& path, const CameraFile& file) {
   text.precision(std::numeric_limits<double>::max_digits10);
   text << "width: " << file.camera.width << "\nheight: " << file.camera.height << "\nfx: " << file.camera.fx
        << "\nfy: " << file.camera.fy << "\ncx: " << file.camera.cx << "\ncy: " << file.camera.cy
-       << "\ndepth_scale: " << file.depth_scale << '\n';
+       << "\ndepth_scale: " << file.depth_scale.value_or(kTumDepthScale) << '\n';
   writeText(path, text.str());
 }
 

@@ -15,7 +15,7 @@ constexpr double kTumDepthScale = 5000.0;
 
 struct CameraFile {
   CameraIntrinsics camera;
-  double depth_scale = kTumDepthScale;
+  std::optional<double> depth_scale;  // kTumDepthScale if the file does not say it
   LensDistortion distortion;
   std::optional<Pose> T_C_D;  // of a colour camera, where the file says it
 };

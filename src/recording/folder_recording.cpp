@@ -13,6 +13,7 @@ void readCamera(const std::string& path, RecordingOptions& options) {
   const CameraFile file = readCameraFile(path);
   options.intrinsics = file.camera;
   options.distortion = file.distortion;
+  if (file.depth_scale) options.depth_unit_m = 1.0 / *file.depth_scale;
 }
 
 void readColorCamera(const std::string& path, RecordingOptions& options) {

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/geometry/camera_check.h"
 
 namespace depth_fusion {
 namespace {
@@ -27,9 +28,10 @@ RecordingIntrinsics chooseIntrinsics(const std::optional<CameraIntrinsics>& give
     chosen.camera.width = depth_size.width;
     chosen.camera.height = depth_size.height;
   }
-  check(chosen.camera.valid(), recording + ": the intrinsics (" + describe(chosen) +
-                                   ") are not valid; give the right ones with --intrinsics");
   checkSize(depth_size, chosen.camera, recording, " (" + chosen.source + ")");
+  const std::string problem = cameraProblem(chosen.camera);
+  check(problem.empty(), recording + ": the intrinsics (" + describe(chosen) + ") are not valid: " + problem +
+                             "; give the right ones with --intrinsics");
   return chosen;
 }
 

@@ -44,7 +44,7 @@ class TumRecording : public Recording {
     std::optional<RecordingIntrinsics> own;
     if (exists(camera_path)) {
       const CameraFile camera_file = readCameraFile(camera_path);
-      depth_unit_m_ = 1.0 / camera_file.depth_scale;
+      depth_unit_m_ = 1.0 / camera_file.depth_scale.value_or(kTumDepthScale);
       own = {camera_file.camera, "from camera.yaml"};
       distortion_ = camera_file.distortion;
     } else if (depth_size == cv::Size(kBenchmarkDefault.width, kBenchmarkDefault.height)) {

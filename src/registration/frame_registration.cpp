@@ -129,14 +129,24 @@ void FrameRegistration::setParameters(const RegistrationParameters& parameters) 
   parameters_ = parameters;
 }
 
+// Colour that cannot be rectified costs the frame its colour, not its depth.
+void FrameRegistration::rectifyColor(RgbdFrame& frame) {
+  if (!frame.color.empty() && distorts(frame.color_distortion) && colorProblem(frame).empty()) {
+    try {
+      if (!color_) color_ = std::make_unique<Color>();
+      color_->prepare(frame);
+      frame.color = color_->rectified(frame.color);
+    } catch (const Error& error) {
+      frame.color.release();
+      frame.color_problem = error.what();
+    }
+  }
+  frame.color_distortion.clear();
+}
+
 RgbdFrame FrameRegistration::process(const RgbdFrame& frame) {
   RgbdFrame result = withDepthUnit(frame, parameters_);
-  if (!frame.color.empty() && distorts(frame.color_distortion) && colorProblem(frame).empty()) {
-    if (!color_) color_ = std::make_unique<Color>();
-    color_->prepare(frame);
-    result.color = color_->rectified(frame.color);
-  }
-  result.color_distortion.clear();
+  rectifyColor(result);
   if (!changesDepth(frame, parameters_)) return result;
   checkFrame(frame);
   if (!depth_) depth_ = std::make_unique<Depth>(compute_);

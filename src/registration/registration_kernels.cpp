@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "depth_fusion/common/error.h"
 #include "geometry/kernel_args.h"
 
 namespace depth_fusion {
@@ -14,6 +15,11 @@ constexpr float kAnyDepth_m = std::numeric_limits<float>::max();
 LensArgs lensArgs(const CameraIntrinsics& camera, const LensDistortion& lens, const std::string& name) {
   checkDistortion(lens);
   if (!distorts(lens)) return {{}, {}, kAnyDepth_m};
+  check(lens.size() <= 8 || !distorts({lens.begin() + 8, lens.end()}),
+        name +
+            ": thin prism and tilt of the lens (s1 ... ty) are not taken out of depth; calibrate with at "
+            "most 8 "
+            "coefficients, or give rectified depth");
   std::vector<float> k(lens.begin(), lens.end());
   k.resize(8, 0.0f);
   return {{k[0], k[1], k[4], k[5], k[6], k[7]},

@@ -12,7 +12,8 @@
 namespace depth_fusion {
 
 struct RgbdFrame {
-  double stamp_s = 0.0;  // of the depth image
+  double stamp_s = 0.0;       // of the depth image
+  std::string stamp_problem;  // why that is not the stamp that the recording has; empty if it is
   cv::Mat depth;  // CV_16UC1 in units of depth_unit_m, or CV_32FC1 in units of depth_unit_m; 0, NaN = none
   double depth_unit_m = 1.0;  // metres a unit of `depth` (0.001 for millimetres)
   cv::Mat weights;  // CV_32FC1 of the depth's size, or empty: how much fusion trusts each pixel, in (0, 1]; a
@@ -26,6 +27,7 @@ struct RgbdFrame {
   std::optional<Pose> T_C_D;  // unset: depth is registered to colour
   LensDistortion distortion, color_distortion;  // of the images; FrameRegistration takes it out
   std::optional<Pose> T_W_D;  // reference pose, where the recording has one for this very frame
+  bool y_mirrored = false;    // y was up (see y_down.h): reference poses from elsewhere must be mirrored, too
 };
 
 // The camera of the frame's colour image.
@@ -40,7 +42,8 @@ inline std::string colorProblem(const RgbdFrame& frame) {
   const CameraIntrinsics camera = colorCamera(frame);
   if (frame.color.cols == camera.width && frame.color.rows == camera.height) return {};
   return "the colour image is " + sizeText(frame.color.cols, frame.color.rows) + ", its intrinsics are for " +
-         sizeText(camera.width, camera.height);
+         sizeText(camera.width, camera.height) +
+         "; give the colour camera's own intrinsics, or colour of that size";
 }
 
 }  // namespace depth_fusion

@@ -8,8 +8,8 @@
 
 namespace depth_fusion {
 
-// k1 k2 p1 p2 [k3 [k4 k5 k6]], OpenCV's order: plumb_bob and rational_polynomial in ROS. Empty: no
-// distortion.
+// k1 k2 p1 p2 [k3 [k4 k5 k6 [s1 s2 s3 s4 [tx ty]]]], OpenCV's order: plumb_bob and rational_polynomial in
+// ROS. Empty: no distortion. The thin prism s and the tilt t are taken out of colour only.
 using LensDistortion = std::vector<double>;
 
 // Some coefficient is not zero.

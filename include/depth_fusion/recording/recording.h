@@ -26,8 +26,9 @@ class Recording {
 
 struct RecordingOptions {
   std::optional<CameraIntrinsics>
-      intrinsics;             // instead of the recording's own (width, height 0: the images')
-  LensDistortion distortion;  // with intrinsics; without, the recording's own counts
+      intrinsics;                      // instead of the recording's own (width, height 0: the images')
+  LensDistortion distortion;           // with intrinsics; without, the recording's own counts
+  std::optional<double> depth_unit_m;  // of depth in 16 bits, instead of the recording's own
   std::optional<CameraIntrinsics> color_intrinsics;  // of a colour camera beside the depth camera
   LensDistortion color_distortion;                   // with color_intrinsics
   std::optional<Pose> T_C_D;                         // with color_intrinsics
@@ -36,8 +37,9 @@ struct RecordingOptions {
   std::string color_topic;                           // bags only; empty: found by type and name
 };
 
-// Reads the intrinsics and the distortion of a camera file: this package's camera.yaml, or a calibration as
-// ROS's camera_calibration writes it. Throws Error naming the file and the key that is missing or wrong.
+// Reads the intrinsics, the distortion and, if it is said, the depth's unit of a camera file: this package's
+// camera.yaml, or a calibration as ROS's camera_calibration writes it. Throws Error naming the file and the
+// key that is missing or wrong.
 void readCamera(const std::string& path, RecordingOptions& options);
 // Reads those of the colour camera. The file may say where it is: `depth_to_color`, a 4x4 matrix that takes
 // points of the depth camera to this one (metres).

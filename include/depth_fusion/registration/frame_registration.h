@@ -31,13 +31,16 @@ class FrameRegistration {
   // Gives the frame as pinhole cameras see it. Depth that had to be changed is CV_32FC1 in metres,
   // interpolated only within a surface; with depth_to_color it is the colour camera's, where near things hide
   // far ones and what only the colour camera sees has no depth. What is right as it is shares the frame's
-  // memory. T_W_D stays the pose of the depth's camera. Throws Error for a distortion that cannot be undone,
-  // for images of another size than their cameras, and for weights on depth that has to be changed.
+  // memory. T_W_D stays the pose of the depth's camera. Colour whose distortion cannot be undone is left out,
+  // and color_problem says why. Throws Error for depth whose distortion cannot be undone, of another size
+  // than its camera, or with weights where it has to be changed.
   RgbdFrame process(const RgbdFrame& frame);
 
  private:
   struct Depth;
   struct Color;
+
+  void rectifyColor(RgbdFrame& frame);
 
   ComputeContext& compute_;
   RegistrationParameters parameters_;

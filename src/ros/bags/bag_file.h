@@ -1,4 +1,4 @@
-// A bag opened for reading, with rosbag's exceptions turned into Errors.
+// Bags opened for reading, several as one, with rosbag's exceptions turned into Errors.
 #pragma once
 
 #include <rosbag/bag.h>
@@ -13,15 +13,33 @@
 
 namespace depth_fusion {
 
-// Throws Error for a file that is missing, no bag, unindexed or truncated.
-std::unique_ptr<rosbag::Bag> openBagFile(const std::string& path);
+// The file begins as bags of ROS 1 do, whatever its name is.
+bool isBagFile(const std::string& path);
 
-// The topics of the bag, sorted by name.
-std::vector<BagTopic> topicsOf(const rosbag::Bag& bag);
+// The parts of one recording, as `rosbag record --split` writes them. Their messages come in the order of
+// receipt.
+class BagFiles {
+ public:
+  // Throws Error for a file that is missing, no bag, unindexed or truncated.
+  explicit BagFiles(const std::vector<std::string>& paths);
 
-// The message at a place of the bag. Throws Error naming bag and topic if it cannot be read as a Message.
+  // "a.bag", or "a.bag and 2 more", for messages to the user.
+  const std::string& name() const { return name_; }
+  // Sorted by name.
+  std::vector<BagTopic> topics() const;
+  // The nodes that published the topic.
+  std::vector<std::string> publishers(const std::string& topic) const;
+  // Adds the topics' messages to the view.
+  void addTo(rosbag::View& view, const std::vector<std::string>& topics) const;
+
+ private:
+  std::string name_;
+  std::vector<std::unique_ptr<rosbag::Bag>> bags_;
+};
+
+// The message at a place of the bags. Throws Error naming bag and topic if it cannot be read as a Message.
 template <class Message>
-boost::shared_ptr<const Message> readMessage(const rosbag::MessageInstance& place, const rosbag::Bag& bag) {
+boost::shared_ptr<const Message> readMessage(const rosbag::MessageInstance& place, const BagFiles& bags) {
   boost::shared_ptr<const Message> message;
   std::string reason = "it has another definition than this ROS's";
   try {
@@ -30,7 +48,7 @@ boost::shared_ptr<const Message> readMessage(const rosbag::MessageInstance& plac
     reason = error.what();
   }
   check(message != nullptr,
-        bag.getFileName() + ": a message of " + place.getTopic() + " cannot be read: " + reason);
+        bags.name() + ": a message of " + place.getTopic() + " cannot be read: " + reason);
   return message;
 }
 

@@ -1,69 +1,50 @@
 #include "ros/bags/bag_sources.h"
 
 #include <sensor_msgs/CameraInfo.h>
-#include <tf2/buffer_core.h>
-#include <tf2/exceptions.h>
-#include <tf2_msgs/TFMessage.h>
+#include <std_msgs/Float32.h>
 
 #include <algorithm>
 
 #include "ros/bags/bag_images.h"
-#include "ros/conversions/messages.h"
+#include "ros/bags/bag_transforms.h"
+#include "ros/conversions/camera_info.h"
 
 namespace depth_fusion {
 namespace {
 
-// tf2 takes no names as tf had them.
-std::string withoutSlash(const std::string& frame) {
-  return frame.empty() || frame[0] != '/' ? frame : frame.substr(1);
-}
+constexpr int kMostInfos = 100;  // looked at, until one fits
 
-// T_target_source by the bag's last word on it.
-std::optional<Pose> staticTransform(const rosbag::Bag& bag, const std::string& target,
-                                    const std::string& source) {
-  tf2::BufferCore tf;
-  rosbag::View view(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}));
-  for (const rosbag::MessageInstance& place : view) {
-    for (geometry_msgs::TransformStamped transform :
-         readMessage<tf2_msgs::TFMessage>(place, bag)->transforms) {
-      transform.header.frame_id = withoutSlash(transform.header.frame_id);
-      transform.child_frame_id = withoutSlash(transform.child_frame_id);
-      tf.setTransform(transform, "bag", place.getTopic() == "/tf_static");
-    }
-  }
-  try {
-    return fromMessage(
-        tf.lookupTransform(withoutSlash(target), withoutSlash(source), ros::Time(0)).transform);
-  } catch (const tf2::TransformException&) {
-    return std::nullopt;
-  }
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
 class SourceFinder {
  public:
-  SourceFinder(const rosbag::Bag& bag, const RecordingOptions& options)
-      : bag_(bag), options_(options), path_(bag.getFileName()), topics_(topicsOf(bag)) {}
+  SourceFinder(const BagFiles& bags, const RecordingOptions& options)
+      : bags_(bags), options_(options), topics_(bags.topics()) {}
 
   BagSources find() {
-    BagSources sources;
-    sources.depth_topic = depthTopic();
-    const BagImage depth = firstImage(sources.depth_topic);
-    const cv::Size depth_size = toDepth(depth).image.size();
-    std::optional<RecordingIntrinsics> own;
-    if (!options_.intrinsics) own = infoIntrinsics(sources.depth_topic, depth_size, sources.distortion);
-    sources.intrinsics = chooseIntrinsics(options_.intrinsics, own, depth_size, path_);
-    sources.color_topic = colorTopic(sources.depth_topic);
-    if (own && !options_.color_intrinsics && !sources.color_topic.empty())
-      findColorCamera(depth.message.header().frame_id, sources);
-    sources.remark = remark_;
-    return sources;
+    sources_.depth_topic = depthTopic();
+    const ImageSample depth = sampleDepth(bags_, sources_.depth_topic);
+    sources_.stamp_lead_s = depth.lead_s;
+    sources_.depth_unit_m = depthUnit();
+    notePublishers();
+    if (options_.intrinsics) {
+      sources_.intrinsics = chooseIntrinsics(options_.intrinsics, std::nullopt, depth.size, bags_.name());
+    } else {
+      findDepthCamera(depth.size);
+    }
+    findColor(depth.frame_id);
+    return sources_;
   }
 
  private:
   std::string depthTopic() const {
     if (!options_.depth_topic.empty()) return givenTopic(options_.depth_topic);
     const auto topic = findDepthTopic(topics_);
-    check(topic.has_value(), path_ + ": no depth topic found; the bag holds " + listTopics(topics_) +
+    check(topic.has_value(), bags_.name() + ": no depth topic found; the bag holds " + listTopics(topics_) +
                                  "; name one with --depth-topic");
     return topic->name;
   }
@@ -72,90 +53,135 @@ class SourceFinder {
     const auto topic =
         std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& t) { return t.name == name; });
     check(topic != topics_.end(),
-          path_ + ": there is no topic " + name + "; the bag holds " + listTopics(topics_));
+          bags_.name() + ": there is no topic " + name + "; the bag holds " + listTopics(topics_));
     check(topic->type == kImageType || topic->type == kCompressedImageType,
-          path_ + ": " + name + " is no image topic; the bag holds " + listTopics(topics_));
+          bags_.name() + ": " + name + " is no image topic; the bag holds " + listTopics(topics_));
     return name;
   }
 
-  // A topic that was found, not given, is left out if its colour cannot be read.
-  std::string colorTopic(const std::string& depth_topic) {
-    if (!options_.color_topic.empty()) {
-      toColor(firstImage(givenTopic(options_.color_topic)));
-      return options_.color_topic;
-    }
-    const auto topic = findColorTopic(topics_, depth_topic);
-    if (!topic) return "";
-    try {
-      toColor(firstImage(topic->name));
-      return topic->name;
-    } catch (const Error& error) {
-      remark_ += std::string("; colour is left out: ") + error.what();
-      return "";
-    }
+  void notePublishers() {
+    const std::vector<std::string> publishers = bags_.publishers(sources_.depth_topic);
+    if (publishers.size() > 1)
+      remark(sources_.depth_topic + " has several publishers (" + joined(publishers) +
+             "); if they are several cameras, record one of them alone");
   }
 
-  BagImage firstImage(const std::string& topic) const {
-    rosbag::View view(bag_, rosbag::TopicQuery(topic));
-    check(view.size() > 0, path_ + ": " + topic + " holds no message");
-    return readImage(*view.begin(), bag_);
-  }
-
-  std::optional<sensor_msgs::CameraInfo> firstInfo(const std::string& topic) const {
-    rosbag::View view(bag_, rosbag::TopicQuery(topic));
+  std::optional<double> depthUnit() const {
+    const std::string topic = depthUnitTopic(topics_, sources_.depth_topic);
+    if (topic.empty()) return std::nullopt;
+    rosbag::View view;
+    bags_.addTo(view, {topic});
     if (view.size() == 0) return std::nullopt;
-    return *readMessage<sensor_msgs::CameraInfo>(*view.begin(), bag_);
+    const double unit_m = static_cast<double>(readMessage<std_msgs::Float32>(*view.begin(), bags_)->data);
+    return unit_m > 0.0 ? std::optional<double>(unit_m) : std::nullopt;
   }
 
-  RecordingIntrinsics infoIntrinsics(const std::string& depth_topic, cv::Size depth_size,
-                                     LensDistortion& distortion) const {
-    const auto fromInfo = [&](const sensor_msgs::CameraInfo& info, const std::string& topic) {
-      distortion = distortionFromInfo(info, depth_topic);
-      return RecordingIntrinsics{cameraFromInfo(info, depth_topic), "from " + topic};
+  // The first message of the topic that `use` takes without an Error; throws that of the first if none is.
+  template <class Use>
+  bool useInfo(const std::string& topic, const Use& use) const {
+    rosbag::View view;
+    bags_.addTo(view, {topic});
+    std::string first_problem;
+    int looked_at = 0;
+    for (auto place = view.begin(); place != view.end() && looked_at < kMostInfos; ++place, ++looked_at) {
+      try {
+        use(*readMessage<sensor_msgs::CameraInfo>(*place, bags_));
+        return true;
+      } catch (const Error& error) {
+        if (first_problem.empty()) first_problem = error.what();
+      }
+    }
+    check(first_problem.empty(), first_problem);
+    return false;
+  }
+
+  void findDepthCamera(cv::Size size) {
+    const auto takeFrom = [&](const std::string& topic) {
+      return useInfo(topic, [&](const sensor_msgs::CameraInfo& info) {
+        depth_camera_ = cameraFromInfo(info, bags_.name() + ": " + topic, sources_.depth_topic, size);
+        sources_.intrinsics = {depth_camera_.intrinsics, "from " + topic};
+        sources_.distortion = depth_camera_.lens;
+      });
     };
-    const std::string own_topic = ownInfoTopic(topics_, depth_topic);
-    if (!own_topic.empty()) {
-      if (const auto info = firstInfo(own_topic)) return fromInfo(*info, own_topic);
+    const std::string own_topic = ownInfoTopic(topics_, sources_.depth_topic);
+    bool found = !own_topic.empty() && takeFrom(own_topic);
+    for (const std::string& topic : relatedInfoTopics(topics_, sources_.depth_topic)) {
+      if (found) break;
+      try {
+        found = takeFrom(topic);
+      } catch (const Error&) {
+        // It is another camera's.
+      }
     }
-    for (const std::string& topic : relatedInfoTopics(topics_, depth_topic)) {
-      const auto info = firstInfo(topic);
-      const bool fits = info && static_cast<int>(info->width) == depth_size.width &&
-                        static_cast<int>(info->height) == depth_size.height;
-      if (fits) return fromInfo(*info, topic);
+    check(found, bags_.name() + ": no camera_info found for " + sources_.depth_topic + "; the bag holds " +
+                     listTopics(topics_) + "; give the intrinsics with --intrinsics");
+    if (!depth_camera_.remark.empty()) remark(depth_camera_.remark);
+  }
+
+  void findColor(const std::string& depth_frame) {
+    const bool given = !options_.color_topic.empty();
+    const auto found = findColorTopic(topics_, sources_.depth_topic);
+    if (!given && !found) return;
+    sources_.color_topic = given ? givenTopic(options_.color_topic) : found->name;
+    cv::Size size;
+    try {
+      size = sampleColor(bags_, sources_.color_topic).size;
+    } catch (const Error& error) {
+      if (given) throw;
+      return leaveOutColor(error.what());
     }
-    throw Error(path_ + ": no camera_info found for " + depth_topic + "; the bag holds " +
-                listTopics(topics_) + "; give the intrinsics with --intrinsics");
+    if (options_.intrinsics || options_.color_intrinsics) return;
+    try {
+      findColorCamera(size, depth_frame);
+    } catch (const Error& error) {
+      leaveOutColor(error.what());
+    }
   }
 
   // Colour without a camera_info of its own is taken for registered to depth.
-  void findColorCamera(const std::string& depth_frame, BagSources& sources) {
-    const std::string topic = ownInfoTopic(topics_, sources.color_topic);
-    const auto info = topic.empty() ? std::nullopt : firstInfo(topic);
-    sources.color_distortion = sources.distortion;
-    if (!info || !cameraFromInfo(*info, sources.color_topic).valid()) return;
-    const CameraIntrinsics camera = cameraFromInfo(*info, sources.color_topic);
-    if (!sameCamera(camera, sources.intrinsics.camera)) sources.color_intrinsics = camera;
-    sources.color_distortion = distortionFromInfo(*info, sources.color_topic);
-    const std::string color_frame = info->header.frame_id;
-    if (depth_frame.empty() || color_frame.empty() || color_frame == depth_frame) return;
-    sources.T_C_D = staticTransform(bag_, color_frame, depth_frame);
-    if (sources.T_C_D) return;
-    sources.color_topic.clear();
-    remark_ += "; colour is left out: it is in the frame " + color_frame + ", depth in " + depth_frame +
-               ", and the bag's tf does not connect them; give the colour camera with --color-camera";
+  void findColorCamera(cv::Size size, const std::string& depth_frame) {
+    const std::string topic = ownInfoTopic(topics_, sources_.color_topic);
+    ColorCamera camera;
+    std::string color_frame;
+    const auto take = [&](const sensor_msgs::CameraInfo* info) {
+      camera = colorCameraFromInfo(info, topic, sources_.color_topic, size, depth_camera_);
+      check(camera.problem.empty(), camera.problem);
+      if (info != nullptr && !camera.is_registered) color_frame = info->header.frame_id;
+    };
+    if (topic.empty() || !useInfo(topic, [&](const sensor_msgs::CameraInfo& info) { take(&info); }))
+      take(nullptr);
+    if (!camera.remark.empty()) remark(camera.remark);
+    sources_.color_intrinsics = camera.intrinsics;
+    sources_.color_distortion = camera.lens;
+    if (!depth_frame.empty() && !color_frame.empty() && color_frame != depth_frame)
+      findColorPose(color_frame, depth_frame);
   }
 
-  const rosbag::Bag& bag_;
+  void findColorPose(const std::string& color_frame, const std::string& depth_frame) {
+    sources_.T_C_D = transformIn(bags_, color_frame, depth_frame);
+    if (!sources_.T_C_D)
+      leaveOutColor("it is in the frame " + color_frame + ", depth in " + depth_frame +
+                    ", and the bag's tf does not connect them; give the colour camera with --color-camera");
+  }
+
+  void leaveOutColor(const std::string& reason) {
+    sources_.color_topic.clear();
+    remark("colour is left out: " + reason);
+  }
+
+  void remark(const std::string& text) { sources_.remark += "; " + text; }
+
+  const BagFiles& bags_;
   const RecordingOptions& options_;
-  std::string path_;
   std::vector<BagTopic> topics_;
-  std::string remark_;
+  CameraModel depth_camera_;
+  BagSources sources_;
 };
 
 }  // namespace
 
-BagSources findSources(const rosbag::Bag& bag, const RecordingOptions& options) {
-  return SourceFinder(bag, options).find();
+BagSources findSources(const BagFiles& bags, const RecordingOptions& options) {
+  return SourceFinder(bags, options).find();
 }
 
 }  // namespace depth_fusion

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <sstream>
 
 namespace depth_fusion {
@@ -11,8 +12,15 @@ constexpr char kCompressedDepthName[] = "compressedDepth";
 constexpr char kCompressedName[] = "compressed";
 constexpr int kUnranked = 99;
 
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+// Whatever the case of its letters.
 bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+  return lowered(text).find(part) != std::string::npos;
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -55,7 +63,7 @@ bool isColorName(const std::string& topic) { return contains(topic, "rgb") || co
 bool isOtherThanDistance(const std::string& topic) {
   const std::array<const char*, 10> words = {"disparity", "ir",   "infra",     "infra1",    "infra2",
                                              "infrared",  "mask", "amplitude", "intensity", "confidence"};
-  for (const std::string& name : split(topic, '/')) {
+  for (const std::string& name : split(lowered(topic), '/')) {
     for (const std::string& word : split(name, '_')) {
       if (std::find(words.begin(), words.end(), word) != words.end()) return true;
     }
@@ -116,11 +124,22 @@ std::optional<BagTopic> findColorTopic(const std::vector<BagTopic>& topics, cons
 }
 
 std::string ownInfoTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic) {
-  const std::string name = parentOf(baseTopic(depth_topic)) + "/camera_info";
-  const bool found = std::any_of(topics.begin(), topics.end(), [&](const BagTopic& topic) {
-    return topic.type == kCameraInfoType && topic.name == name;
+  const std::string parent = parentOf(baseTopic(depth_topic));
+  for (const std::string& name : {parent + "/camera_info", parentOf(parent) + "/info/camera_info"}) {
+    const bool found = std::any_of(topics.begin(), topics.end(), [&](const BagTopic& topic) {
+      return topic.type == kCameraInfoType && topic.name == name;
+    });
+    if (found) return name;
+  }
+  return "";
+}
+
+std::string depthUnitTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic) {
+  const std::string sensor = parentOf(parentOf(parentOf(depth_topic)));
+  const auto found = std::find_if(topics.begin(), topics.end(), [&](const BagTopic& topic) {
+    return topic.type == kFloatType && lowered(topic.name) == lowered(sensor) + "/option/depth_units/value";
   });
-  return found ? name : "";
+  return found == topics.end() ? "" : found->name;
 }
 
 std::vector<std::string> relatedInfoTopics(const std::vector<BagTopic>& topics,

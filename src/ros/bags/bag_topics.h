@@ -15,6 +15,7 @@ struct BagTopic {
 constexpr char kImageType[] = "sensor_msgs/Image";
 constexpr char kCompressedImageType[] = "sensor_msgs/CompressedImage";
 constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
+constexpr char kFloatType[] = "std_msgs/Float32";
 
 // The best image topic with depth in its name: registered before others, raw before compressed.
 std::optional<BagTopic> findDepthTopic(const std::vector<BagTopic>& topics);
@@ -23,8 +24,12 @@ std::optional<BagTopic> findDepthTopic(const std::vector<BagTopic>& topics);
 // compressed.
 std::optional<BagTopic> findColorTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic);
 
-// The camera_info topic beside the depth, in its very namespace, or an empty name.
+// The camera_info topic beside the images, in their very namespace or, as RealSense Viewer records it, in
+// `info` beside it, or an empty name.
 std::string ownInfoTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic);
+
+// The topic on which RealSense Viewer says the unit of the sensor's depth in metres, or an empty name.
+std::string depthUnitTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic);
 
 // The camera_info topics of the depth's outermost namespace, the likeliest first.
 std::vector<std::string> relatedInfoTopics(const std::vector<BagTopic>& topics,

@@ -4,29 +4,15 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 
 #include "common/io/image_file.h"
 #include "depth_fusion/common/error.h"
+#include "ros/conversions/message_pixels.h"
 
 namespace depth_fusion {
 namespace {
 
 constexpr double kMillimetre_m = 0.001;
-constexpr int kAsItIs = -1;
-
-struct ColorEncoding {
-  const char* name;
-  int type;
-  int conversion;  // cv::cvtColor's code, or kAsItIs
-};
-
-constexpr ColorEncoding kColorEncodings[] = {{"rgb8", CV_8UC3, cv::COLOR_RGB2BGR},
-                                             {"bgr8", CV_8UC3, kAsItIs},
-                                             {"rgba8", CV_8UC4, cv::COLOR_RGBA2BGR},
-                                             {"bgra8", CV_8UC4, cv::COLOR_BGRA2BGR},
-                                             {"mono8", CV_8UC1, kAsItIs}};
-
 // The header that compressed_depth_image_transport puts before the PNG.
 struct CompressedDepthHeader {
   int32_t format;
@@ -34,40 +20,6 @@ struct CompressedDepthHeader {
   float quant_b;
 };
 static_assert(sizeof(CompressedDepthHeader) == 12, "as on the wire");
-
-bool hostIsBigEndian() {
-  const uint16_t one = 1;
-  return *reinterpret_cast<const unsigned char*>(&one) == 0;
-}
-
-void swapBytes(cv::Mat& image) {
-  const size_t size = image.elemSize1();
-  for (unsigned char* value = image.data; value < image.data + image.total() * image.elemSize();
-       value += size) {
-    std::reverse(value, value + size);
-  }
-}
-
-// Shares the message's memory if its byte order and step are those of an image here, and copies otherwise.
-cv::Mat pixelsOf(const sensor_msgs::Image& message, int type, const std::string& topic) {
-  check(message.width > 0 && message.height > 0, topic + ": the image is empty");
-  const size_t row_size = size_t{message.width} * CV_ELEM_SIZE(type);
-  const size_t needed = size_t{message.step} * (message.height - 1) + row_size;
-  check(message.step >= row_size && message.data.size() >= needed,
-        topic + ": the image holds " + std::to_string(message.data.size()) + " bytes with a step of " +
-            std::to_string(message.step) + ", too few for " + std::to_string(message.width) + "x" +
-            std::to_string(message.height) + " " + message.encoding);
-  const bool swaps = CV_ELEM_SIZE1(type) > 1 && (message.is_bigendian != 0) != hostIsBigEndian();
-  const cv::Size size(static_cast<int>(message.width), static_cast<int>(message.height));
-  if (!swaps && message.step % CV_ELEM_SIZE1(type) == 0)
-    return cv::Mat(size, type, const_cast<unsigned char*>(message.data.data()), message.step);
-  cv::Mat image(size, type);
-  for (int row = 0; row < image.rows; ++row) {
-    std::memcpy(image.ptr(row), message.data.data() + size_t{message.step} * row, row_size);
-  }
-  if (swaps) swapBytes(image);
-  return image;
-}
 
 // Too near, too far and unknown have numbers of their own in ROS (REP 118).
 cv::Mat withoutInvalid(cv::Mat depth) {
@@ -100,10 +52,6 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-bool isRectified(const sensor_msgs::CameraInfo& info, const std::string& image_topic) {
-  return contains(image_topic, "rect") && info.P[0] > 0.0;
-}
-
 }  // namespace
 
 DepthImage depthFromImage(const sensor_msgs::Image& message, const std::string& topic) {
@@ -132,41 +80,6 @@ DepthImage depthFromCompressed(const sensor_msgs::CompressedImage& message, cons
   check(encoding == "16UC1" || encoding == "mono16",
         topic + ": format '" + message.format + "' is no depth; 16UC1 and 32FC1 are accepted");
   return {image, kMillimetre_m};
-}
-
-cv::Mat colorFromImage(const sensor_msgs::Image& message, const std::string& topic) {
-  const auto encoding = std::find_if(std::begin(kColorEncodings), std::end(kColorEncodings),
-                                     [&](const ColorEncoding& e) { return message.encoding == e.name; });
-  check(encoding != std::end(kColorEncodings),
-        topic + ": encoding '" + message.encoding +
-            "' is not accepted for colour; rgb8, bgr8, rgba8, bgra8 and mono8 are");
-  cv::Mat image = pixelsOf(message, encoding->type, topic);
-  if (encoding->conversion == kAsItIs) return image;
-  cv::Mat converted;
-  cv::cvtColor(image, converted, encoding->conversion);
-  return converted;
-}
-
-CameraIntrinsics cameraFromInfo(const sensor_msgs::CameraInfo& info, const std::string& image_topic) {
-  const int width = static_cast<int>(info.width);
-  const int height = static_cast<int>(info.height);
-  if (isRectified(info, image_topic)) return {width, height, info.P[0], info.P[5], info.P[2], info.P[6]};
-  return {width, height, info.K[0], info.K[4], info.K[2], info.K[5]};
-}
-
-LensDistortion distortionFromInfo(const sensor_msgs::CameraInfo& info, const std::string& image_topic) {
-  if (isRectified(info, image_topic) || !distorts(info.D)) return {};
-  const std::string& model = info.distortion_model;  // empty in old bags
-  check(model == "plumb_bob" || model == "rational_polynomial" || model.empty(),
-        image_topic + ": the distortion model '" + model +
-            "' of its camera_info is not known; plumb_bob and rational_polynomial are, others must be "
-            "rectified before");
-  checkDistortion(info.D);
-  return info.D;
-}
-
-cv::Mat colorFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic) {
-  return decodeColorImage(message.data.data(), message.data.size(), topic);
 }
 
 }  // namespace depth_fusion

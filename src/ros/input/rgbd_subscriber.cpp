@@ -126,8 +126,9 @@ std::optional<RgbdPairing::Pair> RgbdSubscriber::takeComplete() {
 void RgbdSubscriber::deliver(const RgbdPairing::Pair& pair, const RegistrationParameters& registration) {
   SensorFrame& frame = *pair.frame;
   try {
+    if (!pair.color.empty()) decodeColor(frame, pair.color);
     const std::string color_frame = cameras_.describe(frame);
-    if (!pair.color.empty()) addColor(frame, pair.color);
+    checkColor(frame.rgbd);
     frame.rgbd = registration_.process(frame.rgbd, registration);
     const bool moved_to_color = !color_frame.empty() && !frame.rgbd.T_C_D;
     if (moved_to_color) frame.header.frame_id = color_frame;
@@ -141,17 +142,21 @@ void RgbdSubscriber::deliver(const RgbdPairing::Pair& pair, const RegistrationPa
   callback_(pair.frame);
 }
 
-void RgbdSubscriber::addColor(SensorFrame& frame, const ImageMessage& image) const {
+void RgbdSubscriber::decodeColor(SensorFrame& frame, const ImageMessage& image) const {
   try {
     frame.rgbd.color = toColor(image, color_topic_);
     frame.color_message = image.raw;
-    const std::string problem = colorProblem(frame.rgbd);
-    check(problem.empty(), color_topic_ + ": " + problem);
   } catch (const std::exception& error) {
-    frame.rgbd.color.release();
     frame.rgbd.color_problem = error.what();
-    ROS_WARN_THROTTLE(5.0, "%s; only depth is used", error.what());
   }
+}
+
+void RgbdSubscriber::checkColor(RgbdFrame& frame) const {
+  if (frame.color.empty() && frame.color_problem.empty()) return;
+  frame.color_problem = colorProblem(frame);
+  if (frame.color_problem.empty()) return;
+  frame.color.release();
+  ROS_WARN_THROTTLE(5.0, "%s: %s; only depth is used", color_topic_.c_str(), frame.color_problem.c_str());
 }
 
 void RgbdSubscriber::drop(const std::string& reason, const std::string& detail) {

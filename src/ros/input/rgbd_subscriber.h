@@ -51,7 +51,9 @@ class RgbdSubscriber {
   void deliverComplete();
   std::optional<RgbdPairing::Pair> takeComplete();
   void deliver(const RgbdPairing::Pair& pair, const RegistrationParameters& registration);
-  void addColor(SensorFrame& frame, const ImageMessage& image) const;
+  void decodeColor(SensorFrame& frame, const ImageMessage& image) const;
+  // Leaves colour out that cannot be used, and warns of it.
+  void checkColor(RgbdFrame& frame) const;
   void drop(const std::string& reason, const std::string& detail);
 
   const std::string depth_topic_, color_topic_;

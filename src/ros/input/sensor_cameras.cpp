@@ -1,7 +1,7 @@
 #include "ros/input/sensor_cameras.h"
 
 #include "depth_fusion/common/error.h"
-#include "ros/conversions/image_conversions.h"
+#include "ros/conversions/camera_info.h"
 #include "ros/conversions/messages.h"
 
 namespace depth_fusion {
@@ -61,21 +61,21 @@ std::string SensorCameras::describe(SensorFrame& frame) {
 void SensorCameras::describeDepth(const sensor_msgs::CameraInfo* info, RgbdFrame& frame) const {
   check(info != nullptr,
         "no camera_info yet on " + info_topic_ + "; remap depth/camera_info to the driver's");
-  const CameraIntrinsics camera = cameraFromInfo(*info, depth_topic_);
-  check(camera.valid(), info_topic_ + ": no focal length or size; calibrate the camera (camera_calibration)");
-  check(camera.width == frame.depth.cols && camera.height == frame.depth.rows,
-        info_topic_ + " is for " + sizeText(camera.width, camera.height) + ", " + depth_topic_ + " is " +
-            sizeText(frame.depth.cols, frame.depth.rows));
-  frame.intrinsics = camera;
-  frame.distortion = frame.color_distortion = distortionFromInfo(*info, depth_topic_);
+  const CameraModel model = cameraFromInfo(*info, info_topic_, depth_topic_, frame.depth.size());
+  frame.intrinsics = model.intrinsics;
+  frame.distortion = frame.color_distortion = model.lens;
 }
 
 std::string SensorCameras::describeColor(const sensor_msgs::CameraInfo* info, SensorFrame& frame) {
   if (info == nullptr) return "";
-  const CameraIntrinsics camera = cameraFromInfo(*info, color_topic_);
-  if (!camera.valid()) return "";
-  if (!sameCamera(camera, frame.rgbd.intrinsics)) frame.rgbd.color_intrinsics = camera;
-  frame.rgbd.color_distortion = distortionFromInfo(*info, color_topic_);
+  RgbdFrame& rgbd = frame.rgbd;
+  const cv::Size size = rgbd.color.empty() ? imageSizeOf(*info) : rgbd.color.size();
+  const ColorCamera camera = colorCameraFromInfo(info, color_topic_ + "'s camera_info", color_topic_, size,
+                                                 {rgbd.intrinsics, rgbd.distortion, {}});
+  rgbd.color_intrinsics = camera.intrinsics;
+  rgbd.color_distortion = camera.lens;
+  if (!camera.problem.empty()) rgbd.color_problem = camera.problem;
+  if (camera.is_registered) return "";
   const std::string color_frame = otherFrame(info, frame.header);
   if (!color_frame.empty()) frame.rgbd.T_C_D = lookUp(color_frame, frame.header.frame_id);
   return color_frame;

@@ -1,0 +1,45 @@
+#include "ros/bags/bag_transforms.h"
+
+#include <tf2/buffer_core.h>
+#include <tf2/exceptions.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "ros/conversions/messages.h"
+
+namespace depth_fusion {
+namespace {
+
+// tf2 takes no names as tf had them.
+std::string withoutSlash(const std::string& frame) {
+  return frame.empty() || frame[0] != '/' ? frame : frame.substr(1);
+}
+
+void addTransforms(const rosbag::MessageInstance& place, const BagFiles& bags, tf2::BufferCore& tf) {
+  try {
+    for (geometry_msgs::TransformStamped transform :
+         readMessage<tf2_msgs::TFMessage>(place, bags)->transforms) {
+      transform.header.frame_id = withoutSlash(transform.header.frame_id);
+      transform.child_frame_id = withoutSlash(transform.child_frame_id);
+      tf.setTransform(transform, "bag", place.getTopic() == "/tf_static");
+    }
+  } catch (const Error&) {
+    // A message that cannot be read connects nothing; whoever asks hears if the others do not either.
+  }
+}
+
+}  // namespace
+
+std::optional<Pose> transformIn(const BagFiles& bags, const std::string& target, const std::string& source) {
+  tf2::BufferCore tf;
+  rosbag::View view;
+  bags.addTo(view, {"/tf", "/tf_static"});
+  for (const rosbag::MessageInstance& place : view) addTransforms(place, bags, tf);
+  try {
+    return fromMessage(
+        tf.lookupTransform(withoutSlash(target), withoutSlash(source), ros::Time(0)).transform);
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace depth_fusion
