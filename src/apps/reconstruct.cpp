@@ -16,6 +16,7 @@ constexpr char kDescription[] =
     "Examples:\n"
     "  reconstruct --input desk --output out\n"
     "  reconstruct --input desk.bag --output out --voxel-size 0.01 --max-range 4\n"
+    "  reconstruct --input desk_0.bag desk_1.bag --output out\n"
     "  reconstruct --input desk --output out --trajectory poses.txt\n";
 
 void listDevices() {
@@ -35,7 +36,8 @@ struct Arguments {
 
 void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
   MapParameters& map = options.parameters.map;
-  app.add_option("--input", options.input, "recording to fuse: a folder, a .bag file or an .oni file");
+  app.add_option("--input", options.inputs,
+                 "recording to fuse: a folder, a .bag file, several that are parts of one, or an .oni file");
   app.add_option("--output", options.output, "folder for the results; made if missing");
   app.add_option("--voxel-size", map.voxel_size_m, "edge of a voxel in metres")->capture_default_str();
   app.add_option("--blocks-per-axis", map.blocks_per_axis, "the window's size in blocks, N")
@@ -81,7 +83,7 @@ int run(const Arguments& arguments, RunOptions& options) {
     printParameters(options.parameters);
     return 0;
   }
-  check(!options.input.empty() && !options.output.empty(), "--input and --output are needed; see --help");
+  check(!options.inputs.empty() && !options.output.empty(), "--input and --output are needed; see --help");
   return reconstruct(options);
 }
 

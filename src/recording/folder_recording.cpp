@@ -33,9 +33,9 @@ std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOp
   check(!is_empty, path + ": the folder is empty; give one in the TUM or 7-Scenes layout");
   if (hasTumLayout(path)) return calibrated(openTumFolder(path, options), options);
   if (hasSevenScenesLayout(path)) return calibrated(openSevenScenesFolder(path, options), options);
-  throw Error(
-      path +
-      ": is no recording; expected depth.txt (TUM layout) or frame-000000.depth.png (7-Scenes layout)");
+  throw Error(path +
+              ": is no recording; expected depth.txt or associations.txt (TUM layout) or "
+              "frame-000000.depth.png (7-Scenes layout)");
 }
 
 Trajectory readPoses(const std::string& file_or_folder) {

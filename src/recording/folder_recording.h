@@ -8,7 +8,8 @@
 
 namespace depth_fusion {
 
-// depth.txt and rgb.txt list "stamp file"; camera.yaml may hold the intrinsics.
+// depth.txt and rgb.txt list "stamp file", or a list of associations "stamp file stamp file"; camera.yaml may
+// hold the intrinsics.
 bool hasTumLayout(const std::string& folder);
 std::unique_ptr<Recording> openTumFolder(const std::string& folder, const RecordingOptions& options);
 

@@ -43,6 +43,7 @@ std::string describe(const RecordingIntrinsics& intrinsics) {
   std::ostringstream text;
   const CameraIntrinsics& camera = intrinsics.camera;
   text << camera.fx << ' ' << camera.fy << ' ' << camera.cx << ' ' << camera.cy << ", " << intrinsics.source;
+  if (camera.fy < 0.0) text << " (y is up: it is turned down, and so are poses)";
   return text.str();
 }
 

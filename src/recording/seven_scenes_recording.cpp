@@ -67,7 +67,7 @@ std::vector<double> readMatrix(const std::string& path, size_t size) {
   return *numbers;
 }
 
-// Gives nothing for a pose that the data set marks as unknown (numbers that are not finite).
+// Gives nothing for what trackers write where they have no pose: numbers that are not finite, zeros.
 std::optional<Pose> readPose(const std::string& path) {
   constexpr double kRotationTolerance = 1e-2;
   const std::vector<double> numbers = readMatrix(path, 4);
@@ -76,12 +76,22 @@ std::optional<Pose> readPose(const std::string& path) {
   const Eigen::Matrix4d matrix =
       Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  if (rotation.isZero(0.0)) return std::nullopt;
   check((rotation * rotation.transpose()).isIdentity(kRotationTolerance) && rotation.determinant() > 0.0,
         path + ": the upper left 3x3 matrix is no rotation");
   Pose T_W_D = Pose::Identity();
   T_W_D.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
   T_W_D.translation() = matrix.topRightCorner<3, 1>();
   return T_W_D;
+}
+
+// A reference that cannot be read does not cost the frame its depth.
+std::optional<Pose> readPoseIfAny(const std::string& path) {
+  try {
+    return path.empty() ? std::nullopt : readPose(path);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 std::optional<RecordingIntrinsics> readIntrinsics(const std::string& folder, cv::Size depth_size) {
@@ -99,7 +109,7 @@ class SevenScenesRecording : public Recording {
  public:
   SevenScenesRecording(const std::string& folder, const RecordingOptions& options)
       : folder_(folder), frames_(listFrames(folder)), next_(frames_.begin()) {
-    const cv::Size depth_size = firstDepthSize();
+    const cv::Size depth_size = depthSize();
     intrinsics_ =
         chooseIntrinsics(options.intrinsics, readIntrinsics(folder, depth_size), depth_size, folder);
   }
@@ -117,7 +127,7 @@ class SevenScenesRecording : public Recording {
     if (!files.color.empty())
       readColorOrProblem(frame, [&color = files.color] { return readColorImage(color); });
     setColorCamera(frame);
-    if (!files.pose.empty()) frame.T_W_D = readPose(files.pose);
+    frame.T_W_D = readPoseIfAny(files.pose);
     return frame;
   }
 
@@ -139,12 +149,13 @@ class SevenScenesRecording : public Recording {
     frame.T_C_D = poseFromTwist(kDataSetColorMotion);
   }
 
-  cv::Size firstDepthSize() const {
-    for (const auto& [index, files] : frames_) {
-      if (const auto size = pngSize(files.depth)) return *size;
-    }
-    throw Error(folder_ + ": none of its depth images is a PNG that can be read; the first is " +
-                frames_.begin()->second.depth);
+  cv::Size depthSize() const {
+    std::vector<std::string> paths;
+    for (const auto& [index, files] : frames_) paths.push_back(files.depth);
+    const auto size = usualPngSize(paths);
+    check(size.has_value(),
+          folder_ + ": none of its depth images is a PNG that can be read; the first is " + paths.front());
+    return *size;
   }
 
   size_t count(std::string FrameFiles::*file) const {

@@ -3,35 +3,112 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
+#include "common/io/image_file.h"
 #include "common/io/text_file.h"
 #include "depth_fusion/common/error.h"
 
 namespace depth_fusion {
 namespace {
 
+constexpr char kSeparators[] = " \t,;";
+
 bool earlier(const TimedFile& a, const TimedFile& b) { return a.stamp_s < b.stamp_s; }
 
-TimedFile parseTimedFile(const TextLine& line, const std::filesystem::path& folder) {
-  const std::string blanks = " \t";
-  const size_t stamp_begin = std::min(line.text.find_first_not_of(blanks), line.text.size());
-  const size_t stamp_end = std::min(line.text.find_first_of(blanks, stamp_begin), line.text.size());
-  const size_t name_begin = line.text.find_first_not_of(blanks, stamp_end);
-  const auto stamp = parseNumbers(line.text.substr(stamp_begin, stamp_end - stamp_begin));
-  check(name_begin != std::string::npos && stamp && stamp->size() == 1 && std::isfinite(stamp->front()),
-        line.where + ": '" + line.text + "' is not an entry; expected 'stamp file'");
-  return {stamp->front(), (folder / line.text.substr(name_begin)).string()};
+std::optional<double> parseStamp(const std::string& text) {
+  const auto numbers = parseNumbers(text);
+  if (!numbers || numbers->size() != 1 || !std::isfinite(numbers->front())) return std::nullopt;
+  return stampSeconds(numbers->front());
+}
+
+// Names may stand in quotes, hold blanks, and have the separators of Windows.
+std::string pathOf(const std::string& name, const std::filesystem::path& folder) {
+  std::string path = (folder / trimmed(name, " \t,;\"'")).string();
+  if (!std::filesystem::exists(path)) std::replace(path.begin(), path.end(), '\\', '/');
+  return path;
+}
+
+// "stamp file", the file being what follows the stamp up to the text's end.
+std::optional<TimedFile> parseTimedFile(const std::string& text, const std::filesystem::path& folder) {
+  const size_t stamp_end = text.find_first_of(kSeparators);
+  if (stamp_end == std::string::npos) return std::nullopt;
+  const auto stamp_s = parseStamp(text.substr(0, stamp_end));
+  const std::string name = trimmed(text.substr(stamp_end), kSeparators);
+  if (!stamp_s || name.empty()) return std::nullopt;
+  return TimedFile{*stamp_s, pathOf(name, folder)};
+}
+
+// "stamp file stamp file": the second entry begins at the first number after a name.
+std::optional<TimedPair> parseTimedPair(const std::string& text, const std::filesystem::path& folder) {
+  size_t begin = text.find_first_of(kSeparators);
+  for (int word = 1; begin != std::string::npos; ++word) {
+    begin = text.find_first_not_of(kSeparators, begin);
+    if (begin == std::string::npos) break;
+    const size_t end = text.find_first_of(kSeparators, begin);
+    if (word > 1 && end != std::string::npos && parseStamp(text.substr(begin, end - begin))) {
+      const auto first = parseTimedFile(text.substr(0, begin), folder);
+      const auto second = parseTimedFile(text.substr(begin), folder);
+      if (first && second) return TimedPair{*first, *second};
+    }
+    begin = end;
+  }
+  return std::nullopt;
+}
+
+// The entries of the list's lines that parse() understands.
+template <class Entry, class Parse>
+std::vector<Entry> readEntries(const std::string& list_path, const std::string& expected, std::string* remark,
+                               const Parse& parse) {
+  const std::filesystem::path folder = std::filesystem::path(list_path).parent_path();
+  std::vector<Entry> entries;
+  std::string first_problem;
+  size_t problems = 0;
+  for (const TextLine& line : readTextLines(list_path)) {
+    if (const std::optional<Entry> entry = parse(line.text, folder)) {
+      entries.push_back(*entry);
+    } else if (problems++ == 0) {
+      first_problem = line.where + ": '" + line.text + "' is not an entry; expected '" + expected + "'";
+    }
+  }
+  check(!entries.empty() || problems > 0, list_path + ": lists no file; expected lines '" + expected + "'");
+  check(!entries.empty(), first_problem);
+  if (remark != nullptr && problems > 0)
+    *remark += "; " + std::to_string(problems) + " lines left out, the first: " + first_problem;
+  return entries;
+}
+
+// Pairs of which the first is depth, or of which the second is.
+bool depthIsSecond(const std::vector<TimedPair>& pairs) {
+  const auto isDepth = [](const TimedFile& file) {
+    const auto header = readPngHeader(file.path);
+    return header && header->is_depth;
+  };
+  for (const TimedPair& pair : pairs) {
+    if (isDepth(pair.depth) != isDepth(pair.color)) return isDepth(pair.color);
+  }
+  const auto isNamedDepth = [](const TimedFile& file) {
+    return file.path.find("depth") != std::string::npos;
+  };
+  return isNamedDepth(pairs.front().color) && !isNamedDepth(pairs.front().depth);
 }
 
 }  // namespace
 
-std::vector<TimedFile> readTimedFiles(const std::string& list_path) {
-  const std::filesystem::path folder = std::filesystem::path(list_path).parent_path();
-  std::vector<TimedFile> files;
-  for (const TextLine& line : readTextLines(list_path)) files.push_back(parseTimedFile(line, folder));
-  check(!files.empty(), list_path + ": lists no file; expected lines 'stamp file'");
+std::vector<TimedFile> readTimedFiles(const std::string& list_path, std::string* remark) {
+  auto files = readEntries<TimedFile>(list_path, "stamp file", remark, parseTimedFile);
   std::stable_sort(files.begin(), files.end(), earlier);
   return files;
+}
+
+std::vector<TimedPair> readTimedPairs(const std::string& list_path, std::string* remark) {
+  auto pairs = readEntries<TimedPair>(list_path, "stamp file stamp file", remark, parseTimedPair);
+  if (depthIsSecond(pairs)) {
+    for (TimedPair& pair : pairs) std::swap(pair.depth, pair.color);
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const TimedPair& a, const TimedPair& b) { return earlier(a.depth, b.depth); });
+  return pairs;
 }
 
 const TimedFile* nearestFile(const std::vector<TimedFile>& files, double stamp_s, double max_gap_s) {

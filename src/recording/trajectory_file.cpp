@@ -12,19 +12,19 @@ namespace {
 
 bool earlier(const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; }
 
-StampedPose parsePose(const TextLine& line) {
-  constexpr double kNormTolerance = 0.1;
+// Gives nothing for what trackers write where they have no pose: numbers that are not finite, a quaternion of
+// zeros.
+std::optional<StampedPose> parsePose(const TextLine& line) {
+  constexpr double kLeastNorm = 1e-6;
   const auto numbers = parseNumbers(line.text);
   check(numbers && numbers->size() == 8,
         line.where + ": '" + line.text + "' is not a pose; expected 'stamp tx ty tz qx qy qz qw'");
   const std::vector<double>& v = *numbers;
-  check(std::all_of(v.begin(), v.end(), [](double number) { return std::isfinite(number); }),
-        line.where + ": the pose holds a number that is not finite; remove the line");
   const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
-  check(std::abs(rotation.norm() - 1.0) < kNormTolerance,
-        line.where + ": the quaternion does not have length 1; expected 'stamp tx ty tz qx qy qz qw'");
+  const bool is_finite = std::all_of(v.begin(), v.end(), [](double number) { return std::isfinite(number); });
+  if (!is_finite || rotation.norm() < kLeastNorm) return std::nullopt;
   StampedPose pose;
-  pose.stamp_s = v[0];
+  pose.stamp_s = stampSeconds(v[0]);
   pose.T_W_D.linear() = rotation.normalized().toRotationMatrix();
   pose.T_W_D.translation() << v[1], v[2], v[3];
   return pose;
@@ -43,7 +43,9 @@ std::string poseText(const StampedPose& pose) {
 
 Trajectory readTrajectory(const std::string& path) {
   Trajectory trajectory;
-  for (const TextLine& line : readTextLines(path)) trajectory.push_back(parsePose(line));
+  for (const TextLine& line : readTextLines(path)) {
+    if (const auto pose = parsePose(line)) trajectory.push_back(*pose);
+  }
   check(!trajectory.empty(), path + ": holds no pose; expected lines 'stamp tx ty tz qx qy qz qw'");
   std::stable_sort(trajectory.begin(), trajectory.end(), earlier);
   return trajectory;

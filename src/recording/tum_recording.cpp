@@ -1,4 +1,5 @@
 // Recordings in the layout of the TUM RGB-D benchmark.
+#include <algorithm>
 #include <filesystem>
 
 #include "common/io/image_file.h"
@@ -19,28 +20,57 @@ bool exists(const std::string& path) {
   return std::filesystem::exists(path, unreadable);
 }
 
-cv::Size firstDepthSize(const std::vector<TimedFile>& depth_files, const std::string& list_path) {
-  for (const TimedFile& file : depth_files) {
-    if (const auto size = pngSize(file.path)) return *size;
+// associations.txt, associate.txt, rgbd_assoc.txt, ...: the first by name, or an empty path.
+std::string findAssociations(const std::string& folder) {
+  std::vector<std::string> found;
+  std::error_code unreadable;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+    const std::string name = entry.path().filename().string();
+    if (name.find("assoc") != std::string::npos && entry.path().extension() == ".txt")
+      found.push_back(entry.path().string());
   }
-  throw Error(list_path + ": none of its " + std::to_string(depth_files.size()) +
-              " files is a PNG that can be read; the first is " + depth_files.front().path);
+  return found.empty() ? "" : *std::min_element(found.begin(), found.end());
 }
 
-std::vector<TimedFile> readColorFiles(const std::string& list_path) {
-  if (!exists(list_path)) return {};
-  return readTimedFiles(list_path);
+// What the lists of a folder name.
+struct TumFiles {
+  std::string list;  // the one that names the depth
+  std::vector<TimedFile> depth;
+  std::vector<TimedFile> color;  // sorted, or where is_paired one for each depth
+  bool is_paired = false;
+  std::string remark;  // lines that are no entries, colour that is left out
+};
+
+TumFiles readPairs(const std::string& list) {
+  TumFiles files;
+  files.list = list;
+  files.is_paired = true;
+  for (const TimedPair& pair : readTimedPairs(list, &files.remark)) {
+    files.depth.push_back(pair.depth);
+    files.color.push_back(pair.color);
+  }
+  return files;
+}
+
+TumFiles readLists(const std::string& folder) {
+  if (!exists(folder + "/depth.txt")) return readPairs(findAssociations(folder));
+  TumFiles files;
+  files.list = folder + "/depth.txt";
+  files.depth = readTimedFiles(files.list, &files.remark);
+  try {
+    if (exists(folder + "/rgb.txt")) files.color = readTimedFiles(folder + "/rgb.txt", &files.remark);
+  } catch (const Error& error) {
+    files.remark += std::string("; colour is left out: ") + error.what();
+  }
+  return files;
 }
 
 class TumRecording : public Recording {
  public:
   TumRecording(const std::string& folder, const RecordingOptions& options)
-      : folder_(folder),
-        max_pairing_gap_s_(options.max_pairing_gap_s),
-        depth_files_(readTimedFiles(folder + "/depth.txt")),
-        color_files_(readColorFiles(folder + "/rgb.txt")) {
+      : folder_(folder), max_pairing_gap_s_(options.max_pairing_gap_s), files_(readLists(folder)) {
     const std::string camera_path = folder + "/camera.yaml";
-    const cv::Size depth_size = firstDepthSize(depth_files_, folder + "/depth.txt");
+    const cv::Size depth_size = depthSize();
     std::optional<RecordingIntrinsics> own;
     if (exists(camera_path)) {
       const CameraFile camera_file = readCameraFile(camera_path);
@@ -54,8 +84,9 @@ class TumRecording : public Recording {
   }
 
   std::optional<RgbdFrame> next() override {
-    if (next_index_ == depth_files_.size()) return std::nullopt;
-    const TimedFile& depth_file = depth_files_[next_index_++];
+    if (next_index_ == files_.depth.size()) return std::nullopt;
+    const size_t index = next_index_++;
+    const TimedFile& depth_file = files_.depth[index];
     RgbdFrame frame;
     frame.stamp_s = depth_file.stamp_s;
     frame.depth = readDepthImage(depth_file.path);
@@ -63,27 +94,41 @@ class TumRecording : public Recording {
     frame.intrinsics = intrinsics_.camera;
     frame.distortion = frame.color_distortion = distortion_;
     checkDepthSize(frame.depth, frame.intrinsics, depth_file.path);
-    const TimedFile* color_file = nearestFile(color_files_, depth_file.stamp_s, max_pairing_gap_s_);
+    const TimedFile* color_file = colorOf(index);
     if (color_file == nullptr) return frame;
     frame.color_stamp_s = color_file->stamp_s;
     readColorOrProblem(frame, [&] { return readColorImage(color_file->path); });
     return frame;
   }
 
-  size_t frameCount() const override { return depth_files_.size(); }
+  size_t frameCount() const override { return files_.depth.size(); }
 
   std::string description() const override {
-    const std::string color = color_files_.empty() ? "no colour (no rgb.txt)"
-                                                   : std::to_string(color_files_.size()) + " colour images";
-    return "TUM layout, " + folder_ + ": " + std::to_string(depth_files_.size()) + " depth images, " + color +
-           ", intrinsics " + describe(intrinsics_);
+    const std::string color = files_.color.empty() ? "no colour (no rgb.txt)"
+                                                   : std::to_string(files_.color.size()) + " colour images";
+    return "TUM layout, " + folder_ + ": " + std::to_string(files_.depth.size()) + " depth images, " + color +
+           ", intrinsics " + describe(intrinsics_) + files_.remark;
   }
 
  private:
+  cv::Size depthSize() const {
+    std::vector<std::string> paths;
+    for (const TimedFile& file : files_.depth) paths.push_back(file.path);
+    const auto size = usualPngSize(paths);
+    check(size.has_value(), files_.list + ": none of its " + std::to_string(paths.size()) +
+                                " files is a PNG that can be read; the first is " + paths.front() +
+                                files_.remark);
+    return *size;
+  }
+
+  const TimedFile* colorOf(size_t index) const {
+    if (files_.is_paired) return &files_.color[index];
+    return nearestFile(files_.color, files_.depth[index].stamp_s, max_pairing_gap_s_);
+  }
+
   std::string folder_;
   double max_pairing_gap_s_;
-  std::vector<TimedFile> depth_files_;
-  std::vector<TimedFile> color_files_;
+  TumFiles files_;
   double depth_unit_m_ = 1.0 / kTumDepthScale;
   RecordingIntrinsics intrinsics_;
   LensDistortion distortion_;
@@ -92,7 +137,9 @@ class TumRecording : public Recording {
 
 }  // namespace
 
-bool hasTumLayout(const std::string& folder) { return exists(folder + "/depth.txt"); }
+bool hasTumLayout(const std::string& folder) {
+  return exists(folder + "/depth.txt") || !findAssociations(folder).empty();
+}
 
 std::unique_ptr<Recording> openTumFolder(const std::string& folder, const RecordingOptions& options) {
   return std::make_unique<TumRecording>(folder, options);

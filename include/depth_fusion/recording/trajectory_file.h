@@ -8,8 +8,9 @@
 
 namespace depth_fusion {
 
-// Throws Error naming the file and line of what cannot be read, or a file without a pose. The poses come
-// sorted by stamp.
+// Lines whose pose is none (numbers that are not finite, a quaternion of zeros) are left out, other
+// quaternions normalised. Throws Error naming the file and line of what cannot be read, or a file without a
+// pose. The poses come sorted by stamp.
 Trajectory readTrajectory(const std::string& path);
 
 // The poses of a file in the TUM format, or those that a recording's folder holds: groundtruth.txt of the TUM

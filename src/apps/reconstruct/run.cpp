@@ -13,6 +13,7 @@
 #include "apps/reconstruct/report.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/percentile.h"
+#include "depth_fusion/frames/y_down.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/registration/registered_recording.h"
 #include "depth_fusion/surface_mesh/ply.h"
@@ -41,8 +42,9 @@ class Run {
   void noteLoss(const std::string& reason);
   // Prints an event of the frame on a line of its own.
   void say(const std::string& event) const;
-  // Says the first time that a frame's colour cannot be read.
-  void noteColor(const RgbdFrame& frame);
+  // Says the first time that a frame's colour cannot be used, or its stamp.
+  void noteProblems(const RgbdFrame& frame);
+  void noteMostLost();
   void showProgress(bool last);
   // Returns 0 before the first frame.
   double medianFrame_ms() const;
@@ -53,6 +55,7 @@ class Run {
   void complain(const std::string& message);
 
   const RunOptions& options_;
+  std::string input_;  // the files, for messages
   ComputeContext compute_;
   std::unique_ptr<Recording> recording_;
   Trajectory poses_;
@@ -63,14 +66,16 @@ class Run {
   bool is_lost_ = false;  // the frame before
   bool pool_was_full_ = false;
   bool color_was_bad_ = false;
+  bool stamp_was_bad_ = false;
   bool window_was_left_ = false;
   bool failed_ = false;
 };
 
 Run::Run(const RunOptions& options) : options_(options), compute_(options.device) {
+  for (const std::string& path : options.inputs) input_ += (input_.empty() ? "" : " ") + path;
   std::cout << "device: " << compute_.selfTestReport() << std::endl;
-  recording_ =
-      registered(openRecording(options.input, options.recording), compute_, options.parameters.registration);
+  recording_ = registered(openRecordings(options.inputs, options.recording), compute_,
+                          options.parameters.registration);
   std::cout << "input: " << recording_->description() << std::endl;
   if (!options.trajectory_file.empty()) poses_ = readPoses(options.trajectory_file);
   std::error_code error;
@@ -87,11 +92,11 @@ int Run::execute() {
     if (counts_.tracked == 0) throw;
     complain(std::string(error.what()) + "; written is what was fused before");
   }
-  check(pipeline_ != nullptr, options_.input + ": no frame could be read");
-  if (counts_.tracked == 0)
-    complain("no frame of " + options_.input + " was fused; the last one is " + status_);
+  check(pipeline_ != nullptr, input_ + ": no frame could be read");
+  if (counts_.tracked == 0) complain("no frame of " + input_ + " was fused; the last one is " + status_);
+  noteMostLost();
   if (options_.parameters.map.color && counts_.colored == 0)
-    complain("--color: no frame of " + options_.input + " has a colour image that can be used");
+    complain("--color: no frame of " + input_ + " has a colour image that can be used");
   writeResults();
   return failed_ ? 1 : 0;
 }
@@ -103,7 +108,7 @@ void Run::fuseRecording() {
     ++counts_.read;
     std::optional<RgbdFrame> next;
     if (options_.max_frames == 0 || counts_.read < options_.max_frames) next = nextFrame();
-    noteColor(*frame);
+    noteProblems(*frame);
     fuseFrame(*frame, next ? &*next : nullptr);
     showProgress(false);
     frame = std::move(next);
@@ -132,7 +137,7 @@ std::optional<RgbdFrame> Run::nextFrame() {
     } catch (const Error& error) {
       ++counts_.unreadable;
       complain(error.what());
-      check(counts_.unreadable < recording_->frameCount(), "no frame of " + options_.input + " can be read");
+      check(counts_.unreadable < recording_->frameCount(), "no frame of " + input_ + " can be read");
     }
   }
 }
@@ -145,7 +150,8 @@ void Run::fuseFrame(const RgbdFrame& frame, const RgbdFrame* next) {
   const std::optional<Pose> T_W_D = poseAt(poses_, frame.stamp_s, kMaxPoseGap_s);
   FrameResult result;
   result.tracking.reason = "no pose near its stamp in " + options_.trajectory_file;
-  noteResult(frame, T_W_D ? pipeline_->processFrame(frame, *T_W_D) : result);
+  if (!T_W_D) return noteResult(frame, result);
+  noteResult(frame, pipeline_->processFrame(frame, frame.y_mirrored ? mirroredY(*T_W_D) : *T_W_D));
 }
 
 void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
@@ -187,11 +193,27 @@ void Run::noteLoss(const std::string& reason) {
   is_lost_ = true;
 }
 
-void Run::noteColor(const RgbdFrame& frame) {
-  if (frame.color_problem.empty() || color_was_bad_) return;
-  color_was_bad_ = true;
-  std::cerr << "reconstruct: " << frame.color_problem
-            << "; only the frame's depth is used, and so with others like it" << std::endl;
+void Run::noteProblems(const RgbdFrame& frame) {
+  const std::string color_problem =
+      frame.color.empty() && frame.color_problem.empty() ? "" : colorProblem(frame);
+  if (!color_problem.empty() && !color_was_bad_) {
+    color_was_bad_ = true;
+    std::cerr << "reconstruct: " << color_problem
+              << "; only the frame's depth is used, and so with others like it" << std::endl;
+  }
+  if (!frame.stamp_problem.empty() && !stamp_was_bad_) {
+    stamp_was_bad_ = true;
+    std::cerr << "reconstruct: " << frame.stamp_problem << ", and so with others like it" << std::endl;
+  }
+}
+
+void Run::noteMostLost() {
+  if (counts_.tracked == 0 || 2 * counts_.lost <= counts_.read) return;
+  const Loss& first = counts_.losses.front();
+  complain(std::to_string(counts_.lost) + " of " + std::to_string(counts_.read) +
+           " frames were lost, the first of them frame " + std::to_string(first.first_frame) + " (" +
+           first.reason +
+           "); the map holds the others only. Are intrinsics and depth unit right? See docs/messages.md");
 }
 
 void Run::say(const std::string& event) const {
@@ -224,8 +246,7 @@ void Run::writeResults() {
   attempt([&] { writeTrajectory(folder + "trajectory.txt", trajectory_); });
   if (!options_.no_mesh) attempt([&] { writeMesh(folder + "mesh.ply"); });
   attempt([&] {
-    writeReport(folder + "report.json", options_.input, compute_, *pipeline_, counts_,
-                tracking_peak_rss_bytes);
+    writeReport(folder + "report.json", input_, compute_, *pipeline_, counts_, tracking_peak_rss_bytes);
   });
 }
 

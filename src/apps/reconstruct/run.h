@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/recording.h"
@@ -9,7 +10,7 @@
 namespace depth_fusion {
 
 struct RunOptions {
-  std::string input;
+  std::vector<std::string> inputs;  // several bags are the parts of one recording
   std::string output;
   std::string trajectory_file;
   std::string device;
@@ -20,8 +21,8 @@ struct RunOptions {
 };
 
 // Fuses the recording and writes mesh, trajectory and report. Returns the exit status: 1 if a frame could not
-// be read, the pool was full, or a file could not be written, each said on standard error. Throws Error if
-// nothing can start.
+// be read, most were lost, the pool was full, or a file could not be written, each said on standard error.
+// Throws Error if nothing can start.
 int reconstruct(const RunOptions& options);
 
 }  // namespace depth_fusion

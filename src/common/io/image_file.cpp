@@ -8,13 +8,14 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/io/text_file.h"
+#include "common/usual_size.h"
 #include "depth_fusion/common/error.h"
 
 namespace depth_fusion {
 namespace {
 
 constexpr unsigned char kPngSignature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-constexpr size_t kPngHeaderSize = 24;  // signature, length and type of IHDR, width, height
+constexpr size_t kPngHeaderSize = 26;  // signature, length and type of IHDR, width, height, bits, kind
 
 bool isPng(const unsigned char* data, size_t size) {
   return size >= sizeof(kPngSignature) && std::memcmp(data, kPngSignature, sizeof(kPngSignature)) == 0;
@@ -103,13 +104,29 @@ cv::Mat readColorImage(const std::string& path) {
   return decodeColorImage(bytes.data(), bytes.size(), path);
 }
 
-std::optional<cv::Size> pngSize(const std::string& path) {
+std::optional<PngHeader> readPngHeader(const std::string& path) {
+  constexpr unsigned char kGray = 0;
   std::ifstream file(path, std::ios::binary);
   unsigned char header[kPngHeaderSize];
   if (!file.read(reinterpret_cast<char*>(header), sizeof(header)) || !isPng(header, sizeof(header))) {
     return std::nullopt;
   }
-  return cv::Size(static_cast<int>(bigEndian32(header + 16)), static_cast<int>(bigEndian32(header + 20)));
+  PngHeader read;
+  read.size = {static_cast<int>(bigEndian32(header + 16)), static_cast<int>(bigEndian32(header + 20))};
+  read.is_depth = header[24] == 16 && header[25] == kGray;
+  return read;
+}
+
+std::optional<cv::Size> usualPngSize(const std::vector<std::string>& paths) {
+  constexpr size_t kSamples = 9;
+  std::vector<cv::Size> sizes;
+  for (const std::string& path : paths) {
+    const auto header = readPngHeader(path);
+    if (header && !header->size.empty()) sizes.push_back(header->size);
+    if (sizes.size() == kSamples) break;
+  }
+  if (sizes.empty()) return std::nullopt;
+  return usualSize(sizes);
 }
 
 void writePng(const std::string& path, const cv::Mat& image) {

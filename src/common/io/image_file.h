@@ -23,8 +23,16 @@ cv::Mat readDepthImage(const std::string& path);
 // A colour image as decodeColorImage gives it. Throws Error naming the file.
 cv::Mat readColorImage(const std::string& path);
 
-// Width and height from the header of a PNG file, or nothing if there is no such file or it is none.
-std::optional<cv::Size> pngSize(const std::string& path);
+struct PngHeader {
+  cv::Size size;
+  bool is_depth = false;  // one channel of 16 bits
+};
+
+// The header of a PNG file, or nothing if there is no such file or it is none.
+std::optional<PngHeader> readPngHeader(const std::string& path);
+
+// The size that most of the first nine PNG files have, or nothing if none of the paths is such a file.
+std::optional<cv::Size> usualPngSize(const std::vector<std::string>& paths);
 
 // Throws Error naming the file if it cannot be written completely.
 void writePng(const std::string& path, const cv::Mat& image);

@@ -1,4 +1,5 @@
-// Text files of one record a line: '#' starts a comment, blank lines are skipped.
+// Text files of one record a line, by any editor: UTF-8 or UTF-16, with the mark of it or without, lines that
+// end as anywhere. A '#' at a line's begin or after a blank starts a comment, blank lines are skipped.
 #pragma once
 
 #include <optional>
@@ -8,15 +9,22 @@
 namespace depth_fusion {
 
 struct TextLine {
-  std::string text;
+  std::string text;   // without blanks at both ends
   std::string where;  // "path:line", for messages
 };
 
 // Throws Error if the file cannot be read.
 std::vector<TextLine> readTextLines(const std::string& path);
 
-// The numbers of a text, separated by blanks or commas, or nothing if it holds anything else.
-std::optional<std::vector<double>> parseNumbers(std::string text);
+// The text without these marks at its begin and end.
+std::string trimmed(const std::string& text, const char* marks);
+
+// The numbers of a text, separated by blanks, commas or semicolons, or nothing if it holds anything else.
+// "inf", "nan", "1.#INF", "-1.#IND" and the like are numbers, which are not finite.
+std::optional<std::vector<double>> parseNumbers(const std::string& text);
+
+// A stamp as seconds: one that would be later than the year 5000 is in milli-, micro- or nanoseconds.
+double stampSeconds(double stamp);
 
 // Replaces the file. Throws Error if it cannot be written completely.
 void writeText(const std::string& path, const std::string& text);
