@@ -39,10 +39,11 @@ bool distorts(const LensDistortion& lens) {
 
 void checkDistortion(const LensDistortion& lens) {
   const size_t count = lens.size();
-  check(
-      count == 0 || count == 4 || count == 5 || count == 8 || count == 12 || count == 14,
-      "lens distortion has 4, 5, 8, 12 or 14 coefficients (k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tx ty), not " +
-          std::to_string(count));
+  check(count == 0 || count == 4 || count == 5 || count == 8 || count == 12 || count == 14,
+        "lens distortion has 4, 5 or 8 coefficients (k1 k2 p1 p2 k3 k4 k5 k6), with thin prism and tilt 12 "
+        "or 14, "
+        "not " +
+            std::to_string(count));
   check(std::all_of(lens.begin(), lens.end(), [](double coefficient) { return std::isfinite(coefficient); }),
         "lens distortion has a coefficient that is no number");
 }

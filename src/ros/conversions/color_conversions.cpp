@@ -57,19 +57,14 @@ const ColorEncoding* findEncoding(std::string name) {
 }
 
 // BGR or gray of 8 bits.
-cv::Mat convert(const cv::Mat& pixels, const ColorEncoding& encoding, const std::string& topic) {
+cv::Mat convert(const cv::Mat& pixels, const ColorEncoding& encoding) {
   constexpr double kTo8Bits = 255.0 / 65535.0;
   cv::Mat image = pixels;
   if (pixels.depth() == CV_16U) pixels.convertTo(image, CV_8U, kTo8Bits);
   if (encoding.conversion == kAsItIs) return image;
-  try {
-    cv::Mat converted;
-    cv::cvtColor(image, converted, encoding.conversion);
-    return converted;
-  } catch (const cv::Exception&) {
-    throw Error(topic + ": an image of " + std::to_string(pixels.cols) + "x" + std::to_string(pixels.rows) +
-                " cannot be of encoding '" + encoding.name + "'");
-  }
+  cv::Mat converted;
+  cv::cvtColor(image, converted, encoding.conversion);
+  return converted;
 }
 
 }  // namespace
@@ -80,7 +75,7 @@ cv::Mat colorFromImage(const sensor_msgs::Image& message, const std::string& top
         topic + ": encoding '" + message.encoding +
             "' is not accepted for colour; rgb, bgr, rgba and bgra (as bgr8), mono, bayer_* of 8 "
             "and 16 bits, yuv422 and yuv422_yuy2 are");
-  return convert(pixelsOf(message, encoding->type, topic), *encoding, topic);
+  return convert(pixelsOf(message, encoding->type, topic), *encoding);
 }
 
 // The transport compresses Bayer patterns as if they were gray.
@@ -88,7 +83,7 @@ cv::Mat colorFromCompressed(const sensor_msgs::CompressedImage& message, const s
   const cv::Mat image = decodeColorImage(message.data.data(), message.data.size(), topic);
   const std::string name = message.format.substr(0, message.format.find(';'));
   const ColorEncoding* encoding = name.rfind("bayer_", 0) == 0 ? findEncoding(name) : nullptr;
-  return encoding != nullptr && image.type() == CV_8UC1 ? convert(image, *encoding, topic) : image;
+  return encoding != nullptr && image.type() == CV_8UC1 ? convert(image, *encoding) : image;
 }
 
 }  // namespace depth_fusion

@@ -102,6 +102,22 @@ TEST(RectifiedRecording, ARecordingsOwnCalibrationCounts) {
   EXPECT_LT(meanDifference(*openRegistered(path, {})->next(), frameOf(false)).depth_m, 0.001);
 }
 
+TEST(RectifiedRecording, AGivenCameraFilesDepthScaleCounts) {
+  const TemporaryFolder folder;
+  const std::string path = writeRecording(folder, frameOf(false));
+  const std::string camera = "width: 320\nheight: 240\nfx: 258.65\nfy: 258.25\ncx: 159.05\ncy: 127.4\n";
+  for (const std::string& text : {camera, calibrationText("plumb_bob")}) {
+    RecordingOptions options;
+    writeText(folder / "camera.yaml", text + "depth_scale: 1000\n");
+    readCamera(folder / "camera.yaml", options);
+    EXPECT_DOUBLE_EQ(openFolder(path, options)->next()->depth_unit_m, 0.001);
+    writeText(folder / "camera.yaml", text);
+    RecordingOptions without_scale;
+    readCamera(folder / "camera.yaml", without_scale);
+    EXPECT_DOUBLE_EQ(openFolder(path, without_scale)->next()->depth_unit_m, 0.0002) << "the recording's own";
+  }
+}
+
 TEST(RectifiedRecording, WrongCalibrationsAreNamed) {
   const TemporaryFolder folder;
   const std::string path = writeRecording(folder, frameOf(true));

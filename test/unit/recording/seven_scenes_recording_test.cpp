@@ -96,8 +96,31 @@ TEST(SevenScenesRecording, uses_the_data_sets_intrinsics_for_its_size_only) {
 TEST(SevenScenesRecording, takes_unknown_poses_as_none) {
   const TemporaryFolder folder;
   makeFolder(folder);
-  writeText(frameFile(folder, "000002", ".pose.txt"), "-inf 0 0 0\n0 nan 0 0\n0 0 1 0\n0 0 0 1\n");
-  EXPECT_FALSE(openFolder(folder.path(), {})->next()->T_W_D.has_value());
+  for (const char* pose : {"-inf 0 0 0\n0 nan 0 0\n0 0 1 0\n0 0 0 1\n", "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0",
+                           "-1.#IND 0 0 0\r\n0 1.#QNAN 0 0\r\n0 0 1.#INF 0\r\n0 0 0 1\r\n",
+                           "0,0,0,0\n0,0,0,0\n0,0,0,0\n0,0,0,1\n"}) {
+    writeText(frameFile(folder, "000002", ".pose.txt"), pose);
+    const auto frame = openFolder(folder.path(), {})->next();
+    EXPECT_FALSE(frame->T_W_D.has_value()) << pose;
+    EXPECT_FALSE(frame->depth.empty()) << pose;
+    expectError([&] { readPoses(folder.path()); }, {folder.path(), "no poses"});
+  }
+}
+
+TEST(SevenScenesRecording, poses_that_cannot_be_read_cost_no_depth_and_are_named_where_they_are_asked_for) {
+  const TemporaryFolder folder;
+  makeFolder(folder);
+  const std::string pose = frameFile(folder, "000002", ".pose.txt");
+  const auto expectBadPose = [&](const std::string& text, const std::string& word) {
+    writeText(pose, text);
+    const auto frame = openFolder(folder.path(), {})->next();
+    EXPECT_DOUBLE_EQ(frame->stamp_s, 2.0 / 30.0);
+    EXPECT_FALSE(frame->T_W_D.has_value());
+    expectError([&] { readPoses(folder.path()); }, {pose, word});
+  };
+  expectBadPose("1 0 0 0\n0 1 0 0\n", "4x4");
+  expectBadPose("2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "no rotation");
+  expectBadPose("-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "no rotation");
 }
 
 TEST(SevenScenesRecording, names_bad_files_and_goes_on) {
@@ -108,13 +131,6 @@ TEST(SevenScenesRecording, names_bad_files_and_goes_on) {
     expectError([&] { recording->next(); }, words);
     EXPECT_DOUBLE_EQ(recording->next()->stamp_s, 10.0 / 30.0);
   };
-  const std::string pose = frameFile(folder, "000002", ".pose.txt");
-  writeText(pose, "1 0 0 0\n0 1 0 0\n");
-  expectBadFirst({pose, "4x4"});
-  writeText(pose, "2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
-  expectBadFirst({pose, "no rotation"});
-  writeText(pose, "-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
-  expectBadFirst({pose, "no rotation"});
   const std::string depth = frameFile(folder, "000002", ".depth.png");
   fs::resize_file(depth, fs::file_size(depth) / 2);
   expectBadFirst({depth, "truncated"});

@@ -212,6 +212,29 @@ TEST(FrameRegistration, PosesMoveWithTheDepth) {
   EXPECT_TRUE(process(frame, toColor()).T_W_D->isApprox(*frame.T_W_D * kBeside.inverse()));
 }
 
+TEST(FrameRegistration, ColourThatCannotBeRectifiedCostsNoDepth) {
+  for (const auto& [lens, word] :
+       {std::make_pair(LensDistortion{-1.2, 0.0, 0.0, 0.0}, "folds"),
+        std::make_pair(LensDistortion{0.1, 0.2, 0.3}, "not 3"),
+        std::make_pair(LensDistortion{0.1, std::nan(""), 0.0, 0.0}, "no number")}) {
+    RgbdFrame frame = unregisteredFrame();
+    frame.color_distortion = lens;
+    const RgbdFrame result = process(frame);
+    EXPECT_FALSE(result.depth.empty());
+    EXPECT_TRUE(result.color.empty());
+    EXPECT_NE(result.color_problem.find(word), std::string::npos) << result.color_problem;
+  }
+}
+
+TEST(FrameRegistration, ThinPrismAndTiltAreTakenOutOfColour) {
+  RgbdFrame frame = unregisteredFrame();
+  frame.color_distortion = {0.1, -0.05, 0.001, 0.001, 0.0, 0.0, 0.0, 0.0, 0.02, 0.0, 0.0, 0.0, 0.01, 0.01};
+  const RgbdFrame tilted = process(frame);
+  EXPECT_EQ(tilted.color_problem, "");
+  frame.color_distortion.resize(8);
+  EXPECT_GT(cv::norm(tilted.color, process(frame).color, cv::NORM_L1), 0.0);
+}
+
 TEST(FrameRegistration, RefusesWhatCannotBeUndone) {
   RgbdFrame frame = unregisteredFrame();
   frame.distortion = {-1.2, 0.0, 0.0, 0.0};
@@ -224,8 +247,8 @@ TEST(FrameRegistration, RefusesWhatCannotBeUndone) {
   frame.intrinsics.width += 1;
   expectError([&] { process(frame); }, {"161x122", "162x122"});
   frame = unregisteredFrame();
-  frame.color_distortion = {-1.2, 0.0, 0.0, 0.0};
-  expectError([&] { process(frame); }, {"the colour camera", "folds"});
+  frame.distortion = LensDistortion(14, 0.01);
+  expectError([&] { process(frame); }, {"the depth camera", "thin prism", "rectified"});
   frame = unregisteredFrame();
   frame.weights = cv::Mat(frame.depth.size(), CV_32FC1, cv::Scalar(1.0));
   expectError([&] { process(frame, toColor()); }, {"weights"});

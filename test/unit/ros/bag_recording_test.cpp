@@ -156,11 +156,11 @@ TEST_F(BagRecordingTest, leaves_out_colour_it_cannot_read_and_says_so) {
   const std::string path = makeBag([](rosbag::Bag& bag) {
     addInfo(bag);
     addDepth(bag, 1.0);
-    addToBag(bag, kColorTopic, 1.0, imageMessage(randomColor(1, CV_8UC1), "bayer_rggb8"));
+    addToBag(bag, kColorTopic, 1.0, imageMessage(randomColor(1, CV_8UC1), "nv21"));
   });
   const auto recording = openBag(path, {});
   EXPECT_TRUE(recording->next()->color.empty());
-  EXPECT_NE(recording->description().find("bayer_rggb8"), std::string::npos) << recording->description();
+  EXPECT_NE(recording->description().find("nv21"), std::string::npos) << recording->description();
 }
 
 TEST_F(BagRecordingTest, lists_the_topics_of_a_bag_without_depth) {

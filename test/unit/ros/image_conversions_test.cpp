@@ -134,8 +134,7 @@ TEST(ImageConversions, names_topic_and_what_is_accepted) {
   const cv::Mat gray = randomColor(1, CV_8UC1);
   expectError([&] { depthFromImage(imageMessage(gray, "mono8"), kTopic); },
               {kTopic, "mono8", "16UC1", "32FC1"});
-  expectError([&] { colorFromImage(imageMessage(gray, "bayer_rggb8"), kTopic); },
-              {kTopic, "bayer_rggb8", "bgr8"});
+  expectError([&] { colorFromImage(imageMessage(gray, "nv21"), kTopic); }, {kTopic, "nv21", "bgr8"});
   const auto expectBadDepth = [](const sensor_msgs::CompressedImage& message, const std::string& word) {
     expectError([&] { depthFromCompressed(message, kTopic); }, {kTopic, word});
   };
