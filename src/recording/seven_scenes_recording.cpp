@@ -1,14 +1,13 @@
 // Recordings in the layout of the 7-Scenes data set.
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 
 #include "common/io/image_file.h"
-#include "common/io/text_file.h"
 #include "depth_fusion/common/error.h"
 #include "recording/color_or_problem.h"
 #include "recording/folder_recording.h"
+#include "recording/matrix_file.h"
 #include "recording/recording_intrinsics.h"
 
 namespace depth_fusion {
@@ -58,37 +57,10 @@ std::map<long, FrameFiles> listFrames(const std::string& folder) {
   return frames;
 }
 
-std::vector<double> readMatrix(const std::string& path, size_t size) {
-  std::string text;
-  for (const TextLine& line : readTextLines(path)) text += line.text + ' ';
-  const auto numbers = parseNumbers(text);
-  check(numbers && numbers->size() == size * size,
-        path + ": expected a matrix of " + std::to_string(size) + "x" + std::to_string(size) + " numbers");
-  return *numbers;
-}
-
-// Gives nothing for what trackers write where they have no pose: numbers that are not finite, zeros.
-std::optional<Pose> readPose(const std::string& path) {
-  constexpr double kRotationTolerance = 1e-2;
-  const std::vector<double> numbers = readMatrix(path, 4);
-  const auto is_finite = [](double number) { return std::isfinite(number); };
-  if (!std::all_of(numbers.begin(), numbers.end(), is_finite)) return std::nullopt;
-  const Eigen::Matrix4d matrix =
-      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  if (rotation.isZero(0.0)) return std::nullopt;
-  check((rotation * rotation.transpose()).isIdentity(kRotationTolerance) && rotation.determinant() > 0.0,
-        path + ": the upper left 3x3 matrix is no rotation");
-  Pose T_W_D = Pose::Identity();
-  T_W_D.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
-  T_W_D.translation() = matrix.topRightCorner<3, 1>();
-  return T_W_D;
-}
-
 // A reference that cannot be read does not cost the frame its depth.
 std::optional<Pose> readPoseIfAny(const std::string& path) {
   try {
-    return path.empty() ? std::nullopt : readPose(path);
+    return path.empty() ? std::nullopt : readPoseFile(path);
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -97,7 +69,7 @@ std::optional<Pose> readPoseIfAny(const std::string& path) {
 std::optional<RecordingIntrinsics> readIntrinsics(const std::string& folder, cv::Size depth_size) {
   const std::string path = folder + kIntrinsicsFile;
   if (std::filesystem::exists(path)) {
-    const std::vector<double> k = readMatrix(path, 3);
+    const std::vector<double> k = readMatrixFile(path, 3);
     return RecordingIntrinsics{{depth_size.width, depth_size.height, k[0], k[4], k[2], k[5]},
                                "from camera-intrinsics.txt"};
   }
@@ -181,7 +153,7 @@ Trajectory readSevenScenesPoses(const std::string& folder) {
   Trajectory poses;
   for (const auto& [index, files] : listFrames(folder)) {
     if (files.pose.empty()) continue;
-    if (const auto T_W_D = readPose(files.pose))
+    if (const auto T_W_D = readPoseFile(files.pose))
       poses.push_back({static_cast<double>(index) / kFrameRate_hz, *T_W_D});
   }
   return poses;

@@ -52,13 +52,25 @@ TumFiles readPairs(const std::string& list) {
   return files;
 }
 
+// rgb.txt or, without it, what an association has beside depth.
+std::vector<TimedFile> readColor(const std::string& folder, std::string& remark) {
+  if (exists(folder + "/rgb.txt")) return readTimedFiles(folder + "/rgb.txt", &remark);
+  const std::string associations = findAssociations(folder);
+  std::vector<TimedFile> color;
+  if (associations.empty()) return color;
+  for (const TimedPair& pair : readTimedPairs(associations, &remark)) color.push_back(pair.color);
+  std::sort(color.begin(), color.end(),
+            [](const TimedFile& a, const TimedFile& b) { return a.stamp_s < b.stamp_s; });
+  return color;
+}
+
 TumFiles readLists(const std::string& folder) {
   if (!exists(folder + "/depth.txt")) return readPairs(findAssociations(folder));
   TumFiles files;
   files.list = folder + "/depth.txt";
   files.depth = readTimedFiles(files.list, &files.remark);
   try {
-    if (exists(folder + "/rgb.txt")) files.color = readTimedFiles(folder + "/rgb.txt", &files.remark);
+    files.color = readColor(folder, files.remark);
   } catch (const Error& error) {
     files.remark += std::string("; colour is left out: ") + error.what();
   }

@@ -73,18 +73,32 @@ class ColorMotions {
   double last_s_ = 0.0;
 };
 
+// Reads the next frame, past those that cannot be read; the first of them is said.
+std::optional<RgbdFrame> nextFrame(Recording& recording, size_t& unreadable) {
+  while (true) {
+    try {
+      return recording.next();
+    } catch (const Error& error) {
+      if (unreadable++ == 0) std::cerr << "calibrate: " << error.what() << "; left out" << std::endl;
+      check(unreadable < recording.frameCount(),
+            "no frame can be read; the last: " + std::string(error.what()));
+    }
+  }
+}
+
 }  // namespace
 
 TrackedRecording track(ComputeContext& compute, Recording& recording, const PipelineParameters& parameters,
                        const TrackingRange& range) {
   TrackedRecording tracked;
-  for (size_t i = 0; i < range.first; ++i) recording.next();
+  size_t unreadable = 0;
+  for (size_t i = 0; i < range.first; ++i) nextFrame(recording, unreadable);
   std::unique_ptr<ReconstructionPipeline> pipeline;
   ColorMotions color_motions(parameters.texture_odometry);
   FrameChoice choice;
   std::string reason;
   while (range.count == 0 || tracked.read < range.count) {
-    const std::optional<RgbdFrame> frame = recording.next();
+    const std::optional<RgbdFrame> frame = nextFrame(recording, unreadable);
     if (!frame) break;
     if (!pipeline)
       pipeline = std::make_unique<ReconstructionPipeline>(compute, parameters, frame->intrinsics);

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/frames/y_down.h"
 #include "depth_fusion/pipeline/motion_model.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
@@ -161,8 +162,9 @@ struct BlockCounting::Frames : BlockCounting::Surface {
         trajectory.push_back({frame.stamp_s, result.T_W_D});
       }
     });
-    check(!trajectory.empty(),
-          "no frame of " + options.input + " could be tracked; give its poses with --trajectory");
+    check(!trajectory.empty() && trajectory.size() >= lost,
+          "only " + std::to_string(trajectory.size()) + " of " + std::to_string(trajectory.size() + lost) +
+              " frames of " + options.input + " could be tracked; give its poses with --trajectory");
     if (lost > 0) std::cout << lost << " frames are lost and not counted" << std::endl;
   }
 
@@ -194,7 +196,8 @@ struct BlockCounting::Frames : BlockCounting::Surface {
   void forEachPosed(const std::string& what, const Visit& visit) {
     forEach(what, [&](const RgbdFrame& frame) {
       const std::optional<Pose> T_W_D = poseAt(trajectory, frame.stamp_s, kMaxPoseGap_s);
-      if (T_W_D) visit(frame, *T_W_D);
+      const bool has_y_up = frame.y_mirrored && !options.trajectory_file.empty();
+      if (T_W_D) visit(frame, has_y_up ? mirroredY(*T_W_D) : *T_W_D);
     });
   }
 

@@ -34,20 +34,15 @@ bool isBagFile(const std::string& path) {
 
 BagFiles::BagFiles(const std::vector<std::string>& paths)
     : name_(paths.front() + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "")) {
-  for (const std::string& path : paths) bags_.push_back(openBagFile(path));
-}
-
-std::vector<BagTopic> BagFiles::topics() const {
   std::map<std::string, std::string> types;
-  for (const auto& bag : bags_) {
-    rosbag::View everything(*bag);
+  for (const std::string& path : paths) {
+    bags_.push_back(openBagFile(path));
+    rosbag::View everything(*bags_.back());
     for (const rosbag::ConnectionInfo* connection : everything.getConnections()) {
       types[connection->topic] = connection->datatype;
     }
   }
-  std::vector<BagTopic> topics;
-  for (const auto& [name, type] : types) topics.push_back({name, type});
-  return topics;
+  for (const auto& [name, type] : types) topics_.push_back({name, type});
 }
 
 std::vector<std::string> BagFiles::publishers(const std::string& topic) const {

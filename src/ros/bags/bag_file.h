@@ -26,7 +26,7 @@ class BagFiles {
   // "a.bag", or "a.bag and 2 more", for messages to the user.
   const std::string& name() const { return name_; }
   // Sorted by name.
-  std::vector<BagTopic> topics() const;
+  const std::vector<BagTopic>& topics() const { return topics_; }
   // The nodes that published the topic.
   std::vector<std::string> publishers(const std::string& topic) const;
   // Adds the topics' messages to the view.
@@ -35,6 +35,7 @@ class BagFiles {
  private:
   std::string name_;
   std::vector<std::unique_ptr<rosbag::Bag>> bags_;
+  std::vector<BagTopic> topics_;
 };
 
 // The message at a place of the bags. Throws Error naming bag and topic if it cannot be read as a Message.

@@ -1,12 +1,12 @@
 #include "ros/bags/bag_sources.h"
 
 #include <sensor_msgs/CameraInfo.h>
-#include <std_msgs/Float32.h>
 
 #include <algorithm>
 
 #include "ros/bags/bag_images.h"
 #include "ros/bags/bag_transforms.h"
+#include "ros/bags/realsense_viewer.h"
 #include "ros/conversions/camera_info.h"
 
 namespace depth_fusion {
@@ -29,7 +29,7 @@ class SourceFinder {
     sources_.depth_topic = depthTopic();
     const ImageSample depth = sampleDepth(bags_, sources_.depth_topic);
     sources_.stamp_lead_s = depth.lead_s;
-    sources_.depth_unit_m = depthUnit();
+    sources_.depth_unit_m = viewerDepthUnit(bags_, sources_.depth_topic);
     notePublishers();
     if (options_.intrinsics) {
       sources_.intrinsics = chooseIntrinsics(options_.intrinsics, std::nullopt, depth.size, bags_.name());
@@ -64,16 +64,6 @@ class SourceFinder {
     if (publishers.size() > 1)
       remark(sources_.depth_topic + " has several publishers (" + joined(publishers) +
              "); if they are several cameras, record one of them alone");
-  }
-
-  std::optional<double> depthUnit() const {
-    const std::string topic = depthUnitTopic(topics_, sources_.depth_topic);
-    if (topic.empty()) return std::nullopt;
-    rosbag::View view;
-    bags_.addTo(view, {topic});
-    if (view.size() == 0) return std::nullopt;
-    const double unit_m = static_cast<double>(readMessage<std_msgs::Float32>(*view.begin(), bags_)->data);
-    return unit_m > 0.0 ? std::optional<double>(unit_m) : std::nullopt;
   }
 
   // The first message of the topic that `use` takes without an Error; throws that of the first if none is.
@@ -153,7 +143,8 @@ class SourceFinder {
     if (!camera.remark.empty()) remark(camera.remark);
     sources_.color_intrinsics = camera.intrinsics;
     sources_.color_distortion = camera.lens;
-    if (!depth_frame.empty() && !color_frame.empty() && color_frame != depth_frame)
+    sources_.T_C_D = viewerTransform(bags_, sources_.color_topic, sources_.depth_topic);
+    if (!sources_.T_C_D && !depth_frame.empty() && !color_frame.empty() && color_frame != depth_frame)
       findColorPose(color_frame, depth_frame);
   }
 

@@ -125,7 +125,7 @@ std::optional<BagTopic> findColorTopic(const std::vector<BagTopic>& topics, cons
 
 std::string ownInfoTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic) {
   const std::string parent = parentOf(baseTopic(depth_topic));
-  for (const std::string& name : {parent + "/camera_info", parentOf(parent) + "/info/camera_info"}) {
+  for (const std::string& name : {parent + "/camera_info", viewerStream(depth_topic) + "/info/camera_info"}) {
     const bool found = std::any_of(topics.begin(), topics.end(), [&](const BagTopic& topic) {
       return topic.type == kCameraInfoType && topic.name == name;
     });
@@ -134,13 +134,7 @@ std::string ownInfoTopic(const std::vector<BagTopic>& topics, const std::string&
   return "";
 }
 
-std::string depthUnitTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic) {
-  const std::string sensor = parentOf(parentOf(parentOf(depth_topic)));
-  const auto found = std::find_if(topics.begin(), topics.end(), [&](const BagTopic& topic) {
-    return topic.type == kFloatType && lowered(topic.name) == lowered(sensor) + "/option/depth_units/value";
-  });
-  return found == topics.end() ? "" : found->name;
-}
+std::string viewerStream(const std::string& image_topic) { return parentOf(parentOf(image_topic)); }
 
 std::vector<std::string> relatedInfoTopics(const std::vector<BagTopic>& topics,
                                            const std::string& depth_topic) {

@@ -15,7 +15,6 @@ struct BagTopic {
 constexpr char kImageType[] = "sensor_msgs/Image";
 constexpr char kCompressedImageType[] = "sensor_msgs/CompressedImage";
 constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
-constexpr char kFloatType[] = "std_msgs/Float32";
 
 // The best image topic with depth in its name: registered before others, raw before compressed.
 std::optional<BagTopic> findDepthTopic(const std::vector<BagTopic>& topics);
@@ -28,8 +27,8 @@ std::optional<BagTopic> findColorTopic(const std::vector<BagTopic>& topics, cons
 // `info` beside it, or an empty name.
 std::string ownInfoTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic);
 
-// The topic on which RealSense Viewer says the unit of the sensor's depth in metres, or an empty name.
-std::string depthUnitTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic);
+// What RealSense Viewer's topics of the images' stream begin with: "/device_0/sensor_0/Depth_0".
+std::string viewerStream(const std::string& image_topic);
 
 // The camera_info topics of the depth's outermost namespace, the likeliest first.
 std::vector<std::string> relatedInfoTopics(const std::vector<BagTopic>& topics,

@@ -106,6 +106,12 @@ TEST_F(ForgivenLists, associations_alone_in_either_order) {
   }
 }
 
+TEST_F(ForgivenLists, associations_say_the_colour_of_a_depth_list) {
+  writeText(folder_ / "depth.txt", "1.0 depth/1.png\n2.0 depth/2.png\n");
+  writeText(folder_ / "associations.txt", "1 depth/1.png 1.015 rgb/1.png\n2 depth/2.png 1.985 rgb/2.png\n");
+  expectBoth("both lists", true);
+}
+
 // The images tell, not the names.
 TEST_F(ForgivenLists, associations_whose_names_say_nothing) {
   fs::rename(folder_ / "rgb", folder_ / "a");

@@ -1,5 +1,6 @@
 // Bags as recorders leave them: RealSense Viewer's, split ones, open ones, with bad beginnings and bad
 // colour.
+#include <geometry_msgs/Transform.h>
 #include <std_msgs/Float32.h>
 
 #include "ros/bags/open_recording.h"
@@ -27,6 +28,11 @@ TEST_F(BagLayoutsTest, realsense_viewer_is_found_by_looking) {
     bag.write("/device_0/sensor_0/option/Depth_Units/value", ros::Time(1.0), unit);
     addToBag(bag, depth + "/info/camera_info", 1.0, infoMessage(kTestWidth, kTestHeight, 9.0));
     addToBag(bag, color + "/info/camera_info", 1.0, infoMessage(kTestWidth, kTestHeight, 10.0));
+    geometry_msgs::Transform to_stream;
+    to_stream.rotation.w = 1.0;
+    bag.write(depth + "/tf/0", ros::Time(1.0), to_stream);
+    to_stream.translation.x = 0.015;
+    bag.write(color + "/tf/0", ros::Time(1.0), to_stream);
     addToBag(bag, "/device_0/sensor_0/Infrared_1/image/data", 1.0,
              imageMessage(randomColor(2, CV_8UC1), "8UC1"));
     addToBag(bag, depth + "/image/data", 1.0, imageMessage(randomDepth(1), "mono16"));
@@ -35,7 +41,9 @@ TEST_F(BagLayoutsTest, realsense_viewer_is_found_by_looking) {
   const auto frame = openRecording(path, {})->next();
   EXPECT_TRUE(sameImage(frame->depth, randomDepth(1)));
   EXPECT_TRUE(sameImage(frame->color, randomColor(1)));
-  EXPECT_NEAR(frame->depth_unit_m, 0.0001, 1e-9);
+  EXPECT_DOUBLE_EQ(frame->depth_unit_m, 0.0001);
+  ASSERT_TRUE(frame->T_C_D.has_value());
+  EXPECT_TRUE(frame->T_C_D->isApprox(Pose(Eigen::Translation3d(0.015, 0.0, 0.0))));
   EXPECT_EQ(frame->intrinsics.fx, 9.0);
   EXPECT_EQ(frame->color_intrinsics->fx, 10.0);
 }
