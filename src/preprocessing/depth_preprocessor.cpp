@@ -7,8 +7,8 @@
 #include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
 #include "depth_fusion/preprocessing/depth_range.h"
+#include "depth_fusion/preprocessing/sensor_noise.h"
 #include "preprocessing/preprocessing_kernels.h"
-#include "preprocessing/sensor_noise.h"
 
 namespace depth_fusion {
 namespace {

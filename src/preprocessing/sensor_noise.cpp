@@ -1,8 +1,9 @@
-#include "preprocessing/sensor_noise.h"
+#include "depth_fusion/preprocessing/sensor_noise.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "shared/types.h"
@@ -92,6 +93,20 @@ DepthSensorParameters raisedToNoise(const RgbdFrame& frame, const DepthRange& ra
     much_noise |= sigmas.back().difference_m > kMuchNoise * AXIAL_SIGMA_M(model, sigmas.back().depth_m);
   }
   return much_noise ? fitted(sigmas, model) : model;
+}
+
+std::string noiseRemark(const DepthSensorParameters& model, const DepthSensorParameters& used) {
+  if (used.sigma_base_m == model.sigma_base_m && used.sigma_growth_per_m == model.sigma_growth_per_m)
+    return "";
+  char text[400];
+  std::snprintf(
+      text, sizeof(text),
+      "depth has a sigma of %.1f mm at 1 m and %.1f mm at 3 m, where the sensor model says %.1f and "
+      "%.1f; filters and gates follow what is seen: set depth_sensor/sigma_base_m: %.4f and "
+      "depth_sensor/sigma_growth_per_m: %.4f, or take the sensor's preset",
+      1e3 * AXIAL_SIGMA_M(used, 1.0), 1e3 * AXIAL_SIGMA_M(used, 3.0), 1e3 * AXIAL_SIGMA_M(model, 1.0),
+      1e3 * AXIAL_SIGMA_M(model, 3.0), used.sigma_base_m, used.sigma_growth_per_m);
+  return text;
 }
 
 }  // namespace depth_fusion

@@ -35,6 +35,8 @@ class ReconstructionPipeline {
   BlockMap& map() { return map_; }
   StageTimers& timers() { return timers_; }
   const PipelineParameters& parameters() const { return parameters_; }
+  // The last frame, preprocessed; null before the first.
+  std::shared_ptr<const DepthFrame> depth() const { return session_.depth(); }
   size_t keyframeCount() const { return session_.keyframeCount(); }
 
  private:

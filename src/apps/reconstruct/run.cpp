@@ -14,6 +14,7 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/percentile.h"
 #include "depth_fusion/frames/y_down.h"
+#include "depth_fusion/preprocessing/sensor_noise.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/registration/registered_recording.h"
 #include "depth_fusion/surface_mesh/ply.h"
@@ -44,6 +45,8 @@ class Run {
   void say(const std::string& event) const;
   // Says the first time that a frame's colour cannot be used, or its stamp.
   void noteProblems(const RgbdFrame& frame);
+  // Says after the first frame if its noise is not what the sensor model says.
+  void noteNoise() const;
   void noteMostLost();
   void showProgress(bool last);
   // Returns 0 before the first frame.
@@ -110,6 +113,7 @@ void Run::fuseRecording() {
     if (options_.max_frames == 0 || counts_.read < options_.max_frames) next = nextFrame();
     noteProblems(*frame);
     fuseFrame(*frame, next ? &*next : nullptr);
+    if (counts_.read == 1) noteNoise();
     showProgress(false);
     frame = std::move(next);
   }
@@ -205,6 +209,12 @@ void Run::noteProblems(const RgbdFrame& frame) {
     stamp_was_bad_ = true;
     std::cerr << "reconstruct: " << frame.stamp_problem << ", and so with others like it" << std::endl;
   }
+}
+
+void Run::noteNoise() const {
+  const std::string remark =
+      noiseRemark(options_.parameters.depth_sensor, pipeline_->depth()->levels[0].sensor);
+  if (!remark.empty()) say(remark);
 }
 
 void Run::noteMostLost() {

@@ -32,6 +32,9 @@ TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingRe
   status.rmse_m = result.rmse_m;
   status.smallest_eigenvalue = result.smallest_eigenvalue;
   status.prior = result.prior;
+  status.dropped_prior = result.dropped_prior;
+  status.prior_sigmas = result.prior_sigmas;
+  status.explained = result.explained;
   status.latency_s = (ros::Time::now() - header.stamp).toSec();
   return status;
 }

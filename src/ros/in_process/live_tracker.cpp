@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/preprocessing/sensor_noise.h"
 #include "ros/conversions/status_messages.h"
 #include "ros/in_process/shared_map.h"
 
@@ -39,11 +40,18 @@ LiveResult LiveTracker::track(const TexturedSensorFrame& frame, StageTimers& tim
     const Pose start = view() == nullptr ? robot_.start_pose(frame.sensor->header) : Pose::Identity();
     result.tracking = session_->step(frame.sensor->rgbd, frame.texture, view(), timers, start);
     rendered_.reset();
+    if (!std::exchange(noise_was_judged_, true)) warnOfNoise();
   } else {
     result.lost_for = result.tracking.reason;
     session_->lose();
   }
   return result;
+}
+
+void LiveTracker::warnOfNoise() const {
+  const std::string remark =
+      noiseRemark(parameters_.pipeline.depth_sensor, session_->depth()->levels[0].sensor);
+  if (!remark.empty()) ROS_WARN("%s", remark.c_str());
 }
 
 LiveResult LiveTracker::fail(const std::string& error) {
@@ -83,6 +91,7 @@ void LiveTracker::makeSession(const CameraIntrinsics& camera) {
       *compute_, pipelineParameters(), camera,
       [this](const Pose& T_W_D) -> const ModelView& { return render(T_W_D); });
   camera_ = camera;
+  noise_was_judged_ = false;
   session_->reset(viewPose());
 }
 

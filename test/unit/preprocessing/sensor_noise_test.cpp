@@ -1,5 +1,5 @@
 // The sensor model is raised to the noise that an image has, and only to noise.
-#include "preprocessing/sensor_noise.h"
+#include "depth_fusion/preprocessing/sensor_noise.h"
 
 #include <gtest/gtest.h>
 
@@ -36,6 +36,7 @@ RgbdFrame frameWithNoise(double times, const DepthSensorParameters& model) {
 void expectModel(const DepthSensorParameters& sensor, const DepthSensorParameters& model) {
   EXPECT_EQ(sensor.sigma_base_m, model.sigma_base_m);
   EXPECT_EQ(sensor.sigma_growth_per_m, model.sigma_growth_per_m);
+  EXPECT_EQ(noiseRemark(model, sensor), "");
 }
 
 TEST(SensorNoise, TheModelStaysWhereItHolds) {
@@ -54,6 +55,7 @@ TEST(SensorNoise, MoreNoiseIsFoundAtEachDepth) {
       for (const float z : {0.7f, 1.5f, 3.0f})
         EXPECT_NEAR(AXIAL_SIGMA_M(raised, z) / AXIAL_SIGMA_M(model, z), times, 0.2 * times) << z;
       EXPECT_EQ(raised.max_sigma_m, model.max_sigma_m);
+      EXPECT_NE(noiseRemark(model, raised).find("depth_sensor/sigma_base_m: 0.0"), std::string::npos);
     }
   }
 }

@@ -1,6 +1,8 @@
 // The noise that a depth image has, against what the sensor model says.
 #pragma once
 
+#include <string>
+
 #include "depth_fusion/frames/rgbd_frame.h"
 #include "depth_fusion/preprocessing/preprocessing_parameters.h"
 
@@ -13,5 +15,8 @@ namespace depth_fusion {
 // itself.
 DepthSensorParameters raisedToNoise(const RgbdFrame& frame, const DepthRange& range,
                                     const DepthSensorParameters& model);
+
+// What to tell the user of a sensor that is used in the model's place; empty if it is the model's.
+std::string noiseRemark(const DepthSensorParameters& model, const DepthSensorParameters& used);
 
 }  // namespace depth_fusion
