@@ -125,7 +125,6 @@ void IcpTrackingNodelet::publish(const SensorFrame& frame, const LiveResult& res
   const bool lost = result.tracking.status == TrackingStatus::kLost;
   if (lost) {
     counter_.drop(result.lost_for);
-    pose_publisher_->publishLost(frame.header);
   } else {
     counter_.process();
     pose_publisher_->publish(frame.header, result.tracking.T_W_D, result.tracking.covariance);
@@ -137,6 +136,8 @@ void IcpTrackingNodelet::publish(const SensorFrame& frame, const LiveResult& res
 
 void IcpTrackingNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   report_->diagnose(sensor_subscriber_ ? sensor_subscriber_->problem() : "", status);
+  const std::string of_robot = pose_publisher_->problem();
+  if (!of_robot.empty()) status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, of_robot);
   status.add("queue", worker_->waiting());
 }
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "depth_fusion/common/error.h"
 #include "ros/conversions/messages.h"
 
 namespace depth_fusion {
@@ -16,10 +15,11 @@ constexpr uint32_t kQueue = 100;
 // A robot's frames come on two topics and from several nodes.
 constexpr double kSettled_s = 1.0;
 constexpr double kMaxSettling_s = 3.0;
-constexpr double kTransformTimeout_s = 0.1;
 constexpr double kPoll_s = 0.002;
 
 }  // namespace
+
+bool isOdometry(const std::string& frame) { return frame.find("odom") != std::string::npos; }
 
 CameraTree::CameraTree(ros::NodeHandle handle, const std::string& map_frame) : map_frame_(map_frame) {
   const auto subscribe = [&](const std::string& topic, bool is_static) {
@@ -57,19 +57,17 @@ CameraTree::Root CameraTree::rootOf(const std::string& camera_frame) const {
   return root;
 }
 
-CameraTree::Root CameraTree::settledRootOf(const std::string& camera_frame) const {
+void CameraTree::awaitGrown(const std::string& camera_frame) const {
   // The wall's clock counts: a simulated one may stand still.
   const ros::WallTime begin = ros::WallTime::now();
-  Root root = rootOf(camera_frame);
   for (ros::WallTime now = begin; othersPublish() && (now - begin).toSec() < kMaxSettling_s;
        now = ros::WallTime::now()) {
+    const Root root = rootOf(camera_frame);
     const bool stands_alone = root.frame == camera_frame && !root.in_map;
     const ros::WallTime quiet_since = stands_alone ? std::max(begin, grown()) : grown();
-    if ((now - quiet_since).toSec() > kSettled_s) break;
+    if (isOdometry(root.frame) || (now - quiet_since).toSec() > kSettled_s) return;
     ros::WallDuration(kPoll_s).sleep();
-    root = rootOf(camera_frame);
   }
-  return root;
 }
 
 ros::WallTime CameraTree::grown() const {
@@ -84,15 +82,26 @@ bool CameraTree::othersPublish() const {
   return !frames.empty() || static_subscriber_.getNumPublishers() > 0 || subscriber_.getNumPublishers() > 1;
 }
 
-Pose CameraTree::cameraIn(const std::string& frame, const std_msgs::Header& camera) const {
-  if (frame == camera.frame_id) return Pose::Identity();
-  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(kTransformTimeout_s);
-  while (!buffer_.canTransform(frame, camera.frame_id, camera.stamp) && ros::WallTime::now() < give_up)
-    ros::WallDuration(kPoll_s).sleep();
+std::optional<CameraTree::Placed> CameraTree::newest(const std::string& frame,
+                                                     const std::string& camera_frame) const {
+  return lookUp(frame, camera_frame, ros::Time(0));
+}
+
+std::optional<Pose> CameraTree::cameraIn(const std::string& frame, const std_msgs::Header& camera) const {
+  const std::optional<Placed> placed = lookUp(frame, camera.frame_id, camera.stamp);
+  return placed ? std::optional<Pose>(placed->T_frame_camera) : std::nullopt;
+}
+
+std::optional<CameraTree::Placed> CameraTree::lookUp(const std::string& frame,
+                                                     const std::string& camera_frame,
+                                                     const ros::Time& stamp) const {
+  if (frame == camera_frame) return Placed{Pose::Identity(), ros::Time()};
+  if (!buffer_.canTransform(frame, camera_frame, stamp)) return std::nullopt;
   try {
-    return fromMessage(buffer_.lookupTransform(frame, camera.frame_id, camera.stamp).transform);
-  } catch (const tf2::TransformException& error) {
-    throw Error(std::string("tf: ") + error.what());
+    const geometry_msgs::TransformStamped found = buffer_.lookupTransform(frame, camera_frame, stamp);
+    return Placed{fromMessage(found.transform), found.header.stamp};
+  } catch (const tf2::TransformException&) {  // tf has forgotten it meanwhile
+    return std::nullopt;
   }
 }
 

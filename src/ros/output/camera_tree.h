@@ -6,12 +6,17 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "depth_fusion/geometry/pose.h"
 
 namespace depth_fusion {
 
+// Whether the frame is one of odometry by its name (REP 105).
+bool isOdometry(const std::string& frame);
+
+// Thread-safe. Nothing but awaitGrown() waits.
 class CameraTree {
  public:
   CameraTree(ros::NodeHandle handle, const std::string& map_frame);
@@ -27,18 +32,27 @@ class CameraTree {
   };
   // Returns the top of what is known of the tree now, below map_frame.
   Root rootOf(const std::string& camera_frame) const;
-  // Returns the same once the tree has stopped growing. Where somebody publishes on tf, it waits until no
-  // frame was new for a second; a camera that stands alone waits as long for company. It waits three seconds
-  // at most.
-  Root settledRootOf(const std::string& camera_frame) const;
-  // Returns T_frame_camera at the image's stamp, and waits a little for it. Throws Error if the two are not
-  // connected.
-  Pose cameraIn(const std::string& frame, const std_msgs::Header& camera) const;
+  // Waits until the tree no longer grows. Where somebody publishes on tf, that is when no frame was new for a
+  // second; a camera that stands alone waits as long for company, and odometry at the top (REP 105) ends the
+  // waiting. It waits three seconds at most.
+  void awaitGrown(const std::string& camera_frame) const;
+
+  // T_frame_camera, and of when it is.
+  struct Placed {
+    Pose T_frame_camera;
+    ros::Time stamp;  // zero: for all times
+  };
+  // Returns the newest that tf knows; none if it does not connect the two.
+  std::optional<Placed> newest(const std::string& frame, const std::string& camera_frame) const;
+  // Returns T_frame_camera at the image's stamp; none if tf does not know it (yet).
+  std::optional<Pose> cameraIn(const std::string& frame, const std_msgs::Header& camera) const;
 
  private:
   void receive(const tf2_msgs::TFMessage& message, bool is_static);
   bool othersPublish() const;
   ros::WallTime grown() const;
+  std::optional<Placed> lookUp(const std::string& frame, const std::string& camera_frame,
+                               const ros::Time& stamp) const;
 
   const std::string map_frame_;
   tf2::BufferCore buffer_;

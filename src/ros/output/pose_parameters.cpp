@@ -12,7 +12,10 @@ ParameterTable PoseParameters::table() {
        text("base_frame", &base_frame, "child of map_frame on tf, where the robot has no odometry"),
        flag("level_start", &level_start,
             "true: a camera without a tf tree starts looking along x with z up; false: the map is the first "
-            "optical frame")});
+            "optical frame"),
+       number("transform_tolerance", &transform_tolerance_s, 0.0, 10.0,
+              "how far ahead map_frame -> odometry is stamped, in seconds, so that who looks it up need not "
+              "wait for the next one")});
 }
 
 }  // namespace depth_fusion

@@ -1,4 +1,4 @@
-// Where the tracker's poses go.
+// How the tracker's poses go out to the rest of the robot.
 #pragma once
 
 #include <string>
@@ -13,8 +13,11 @@ struct PoseParameters {
   std::string odom_frame;
   std::string base_frame;
   bool level_start = true;
+  float transform_tolerance_s = 0.1f;
 
   ParameterTable table();
+  // The frame that is to be the child of map_frame on tf; empty: it is found.
+  const std::string& givenRoot() const { return odom_frame.empty() ? base_frame : odom_frame; }
 };
 
 }  // namespace depth_fusion

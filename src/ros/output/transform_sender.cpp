@@ -1,0 +1,154 @@
+#include "ros/output/transform_sender.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ros/conversions/messages.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr double kPeriod_s = 0.05;
+constexpr size_t kMaxWaiting = 300;          // poses, of 10 s
+constexpr double kLateOdometry_s = 0.5;      // older than the camera by more is a problem
+constexpr double kStandingOdometry_s = 1.0;  // without news, before poses go on without it
+constexpr double kMoved = 1e-3;              // of a camera's pose in the root, more than rounding
+constexpr double kSameClock_s = 10.0;        // stamps farther from ROS time are another clock's
+
+// The optical frame (z forward, y down) of a camera that looks along x with z up.
+Pose levelCamera() {
+  Pose T_map_camera = Pose::Identity();
+  T_map_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  return T_map_camera;
+}
+
+}  // namespace
+
+TransformSender::TransformSender(ros::NodeHandle handle, const PoseParameters& parameters)
+    : parameters_(parameters),
+      tree_(handle, parameters.map_frame),
+      timer_(callbacks_.createWallTimer(handle, ros::WallDuration(kPeriod_s),
+                                        [this](const ros::WallTimerEvent&) { sendAhead(); })) {}
+
+Pose TransformSender::startPose(const std_msgs::Header& camera) {
+  if (!hasRoot()) tree_.awaitGrown(camera.frame_id);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  followRoot(camera.frame_id);
+  if (root_.frame != camera.frame_id) {
+    if (const auto at_stamp = tree_.cameraIn(root_.frame, camera)) return *at_stamp;
+    if (const auto newest = tree_.newest(root_.frame, camera.frame_id)) return newest->T_frame_camera;
+  }
+  return parameters_.level_start ? levelCamera() : Pose::Identity();
+}
+
+bool TransformSender::hasRoot() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return !root_.frame.empty();
+}
+
+void TransformSender::followRoot(const std::string& camera_frame) {
+  const std::string& given = parameters_.givenRoot();
+  const CameraTree::Root root = given.empty() ? tree_.rootOf(camera_frame) : CameraTree::Root{given};
+  if (root == root_) return;
+  if (!root_.frame.empty())
+    ROS_WARN(
+        "the camera's tree on tf has changed: %s at the top, no longer %s; the map stays as it began. Who "
+        "listened before may know %s -> %s still; give odom_frame or base_frame to be sure from the start",
+        root.frame.c_str(), root_.frame.c_str(), parameters_.map_frame.c_str(), root_.frame.c_str());
+  takeRoot(root);
+}
+
+void TransformSender::takeRoot(const CameraTree::Root& root) {
+  root_ = root;
+  T_map_root_.reset();
+  mounting_.reset();
+  moves_ = root.frame == parameters_.odom_frame || isOdometry(root.frame);
+  if (!root.in_map) return tree_.leaveOut(root.frame);
+  ROS_ERROR(
+      "somebody else publishes %s -> %s on tf; the tracker's poses go out as messages only. Let it map at "
+      "those poses (tracking: external), or choose another map_frame",
+      parameters_.map_frame.c_str(), root.frame.c_str());
+}
+
+void TransformSender::take(const std_msgs::Header& camera, const Pose& T_map_camera) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  followRoot(camera.frame_id);
+  if (!parameters_.publish_tf || root_.in_map) return;
+  last_ = Tracked{camera, T_map_camera};
+  last_taken_ = ros::Time::now();
+  const auto placed = tree_.newest(root_.frame, camera.frame_id);
+  if (placed && !movesInRoot(placed->T_frame_camera))
+    return send(camera.stamp, T_map_camera * placed->T_frame_camera.inverse());
+  waiting_.push_back(*last_);
+  if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
+}
+
+bool TransformSender::movesInRoot(const Pose& T_root_camera) {
+  if (!mounting_) mounting_ = T_root_camera;
+  moves_ = moves_ || !mounting_->isApprox(T_root_camera, kMoved);
+  return moves_;
+}
+
+void TransformSender::reset() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_.reset();
+  waiting_.clear();
+  T_map_root_.reset();
+}
+
+void TransformSender::sendAhead() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  useNewestOdometry();
+  if (!T_map_root_) return;
+  const ros::Time stamp = cameraTime() + ros::Duration(parameters_.transform_tolerance_s);
+  const bool clock_went_back = (last_sent_ - stamp).toSec() > 1.0;
+  if (stamp <= last_sent_ && !clock_went_back) return;  // a simulated clock stands still
+  last_sent_ = stamp;
+  send(stamp, *T_map_root_);
+}
+
+void TransformSender::useNewestOdometry() {
+  if (waiting_.empty()) return;
+  const std::string camera_frame = last_->camera.frame_id;
+  const auto placed = tree_.newest(root_.frame, camera_frame);
+  if (placed && (!odometry_ || placed->stamp != odometry_->stamp)) odometry_came_ = ros::WallTime::now();
+  odometry_ = placed;
+  for (auto pose = waiting_.rbegin(); pose != waiting_.rend(); ++pose) {
+    const auto T_root_camera = tree_.cameraIn(root_.frame, pose->camera);
+    if (!T_root_camera) continue;
+    T_map_root_ = pose->T_map_camera * T_root_camera->inverse();
+    waiting_.erase(waiting_.begin(), pose.base());
+    return;
+  }
+  // Odometry that has ended stands still where it is, and so the robot's pose is right at least.
+  if (odometry_ && (ros::WallTime::now() - odometry_came_).toSec() > kStandingOdometry_s)
+    T_map_root_ = last_->T_map_camera * odometry_->T_frame_camera.inverse();
+}
+
+void TransformSender::send(const ros::Time& stamp, const Pose& T_map_root) {
+  broadcaster_.sendTransform(
+      makeTransform(makeHeader(stamp, parameters_.map_frame), root_.frame, T_map_root));
+}
+
+ros::Time TransformSender::cameraTime() const {
+  const ros::Time now = ros::Time::now();
+  const ros::Duration lag = last_taken_ - last_->camera.stamp;
+  return std::abs(lag.toSec()) < kSameClock_s ? now : now - lag;
+}
+
+std::string TransformSender::problem() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (waiting_.empty()) return "";
+  const std::string way = root_.frame + " -> " + last_->camera.frame_id;
+  if (!odometry_)
+    return "tf does not connect " + way +
+           ", so that no transform is sent; is odom_frame or base_frame right?";
+  const double age_s = (cameraTime() - odometry_->stamp).toSec();
+  if (age_s < kLateOdometry_s) return "";
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f", age_s);
+  return "odometry on tf (" + way + ") is " + text + " s old; mapping goes on without it, and " +
+         parameters_.map_frame + " -> " + root_.frame + " with the last; does the robot's odometry run?";
+}
+
+}  // namespace depth_fusion

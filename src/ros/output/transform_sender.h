@@ -1,0 +1,78 @@
+// The one sender of map_frame -> the root of the camera's tree on tf (REP 105).
+#pragma once
+
+#include <ros/node_handle.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "ros/callbacks/callback_gate.h"
+#include "ros/output/camera_tree.h"
+#include "ros/output/pose_parameters.h"
+
+namespace depth_fusion {
+
+// The root is odom_frame or base_frame where one is given, else whatever stands at the top (odom on a robot
+// that has it, camera_link under a driver, or the camera itself), so that no frame gets a second parent. If
+// the tree grows later, its new root takes the place of the old one.
+//
+// A root in which the camera never moves goes out with every pose, at the image's stamp. One in which it
+// does, as in odometry, goes out at a steady rate, stamped ahead, by the newest pose whose odometry has come,
+// and goes on while there are no poses. No pose waits for odometry. Thread-safe.
+class TransformSender {
+ public:
+  TransformSender(ros::NodeHandle handle, const PoseParameters& parameters);
+
+  // Returns T_map_camera for the first frame, with which the root stands at the map's origin. A camera
+  // without a tree, or one that tf does not connect with the given root, looks along x with z up (REP 103),
+  // or is the origin itself without level_start. The first call waits until the tree no longer grows.
+  Pose startPose(const std_msgs::Header& camera);
+  void take(const std_msgs::Header& camera, const Pose& T_map_camera);
+  // Forgets the poses, which belong to another map.
+  void reset();
+
+  // What is wrong with the odometry or the tree, and what to do; empty if nothing is.
+  std::string problem() const;
+
+ private:
+  struct Tracked {
+    std_msgs::Header camera;
+    Pose T_map_camera;
+  };
+
+  bool hasRoot() const;
+  // These expect the mutex to be held:
+  void followRoot(const std::string& camera_frame);
+  void takeRoot(const CameraTree::Root& root);
+  // Whether the camera has been seen to move in the root, or is bound to.
+  bool movesInRoot(const Pose& T_root_camera);
+  void useNewestOdometry();
+  void send(const ros::Time& stamp, const Pose& T_map_root);
+  ros::Time cameraTime() const;
+
+  void sendAhead();
+
+  const PoseParameters parameters_;
+  CameraTree tree_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+
+  mutable std::mutex mutex_;      // of all that follow
+  CameraTree::Root root_;         // empty until the first frame
+  std::optional<Pose> mounting_;  // T_root_camera as it was first seen
+  bool moves_ = false;            // the camera, in the root
+  std::optional<Tracked> last_;
+  ros::Time last_taken_;         // the ROS time at which it was
+  std::deque<Tracked> waiting_;  // for their odometry, oldest first
+  std::optional<CameraTree::Placed> odometry_;
+  ros::WallTime odometry_came_;
+  std::optional<Pose> T_map_root_;  // of the steady rate
+  ros::Time last_sent_;
+
+  CallbackGate callbacks_;  // last: the timer uses the others
+  ros::WallTimer timer_;
+};
+
+}  // namespace depth_fusion

@@ -1,0 +1,138 @@
+// A robot's odometry on tf that is late, slow or dead costs no frame, and map -> odom goes on whatever
+// happens.
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+
+#include "support/diagnostics.h"
+#include "support/live_graph.h"
+
+namespace depth_fusion {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr int kFrames = 24;
+
+class OdometryOnTf : public LiveGraph {
+ protected:
+  OdometryOnTf()
+      : name_(testing::UnitTest::GetInstance()->current_test_info()->name()),
+        robot_camera_(graph_.handle(), frame("optical")),
+        listener_(buffer_),
+        transforms_(graph_.handle(), "/tf"),
+        frames_(simulatedFrames(smallRoom(kFrames))) {
+    graph_.handle().setParam("icp_tracking/map_frame", frame("map"));
+    mounting_.sendTransform(
+        makeTransform(makeHeader(ros::Time(1.0), frame("base")), frame("optical"), T_base_camera_));
+  }
+
+  // Every test has a robot of its own.
+  std::string frame(const std::string& name) const { return name_ + "_" + name; }
+
+  Pose T_odom_base(const RgbdFrame& at) const {
+    return T_base_camera_ * frames_.front().T_W_D->inverse() * *at.T_W_D * T_base_camera_.inverse();
+  }
+  void sendOdometry(size_t of) {
+    odometry_.sendTransform(
+        makeTransform(makeHeader(stamp(of), frame("odom")), frame("base"), T_odom_base(frames_[of])));
+  }
+  ros::Time stamp(size_t of) const { return robot_camera_.headerOf(frames_[of]).stamp; }
+
+  void startWithOdometry() {
+    loadTracking();
+    sendOdometry(0);
+    ASSERT_TRUE(eventually([&] { return buffer_.canTransform(frame("odom"), frame("optical"), stamp(0)); }));
+  }
+  void expectFused(size_t i) {
+    robot_camera_.publish(frames_[i]);
+    const auto status = map_status_.awaitStamp(stamp(i));
+    ASSERT_NE(status, nullptr) << i;
+    EXPECT_TRUE(status->fused) << i << ": " << status->reason;
+  }
+
+  // The stamps with which map -> odom was sent so far.
+  std::vector<ros::Time> sent() const {
+    std::vector<ros::Time> stamps;
+    for (const auto& message : transforms_.all()) {
+      for (const auto& transform : message->transforms) {
+        if (transform.header.frame_id == frame("map") && transform.child_frame_id == frame("odom"))
+          stamps.push_back(transform.header.stamp);
+      }
+    }
+    return stamps;
+  }
+  void expectMoreOnTf() {
+    const size_t before = sent().size();
+    EXPECT_TRUE(eventually([&] { return sent().size() >= before + 5; }));
+    const std::vector<ros::Time> stamps = sent();
+    EXPECT_GT(stamps.back(), stamps[before]) << "time goes on";
+  }
+
+  const std::string name_;
+  const Pose T_base_camera_ = motionOf({-90.0, 0.0, -90.0}, {0.1, 0.0, 0.4});
+  FakeCamera robot_camera_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  Listener<tf2_msgs::TFMessage> transforms_;
+  tf2_ros::StaticTransformBroadcaster mounting_;
+  tf2_ros::TransformBroadcaster odometry_;
+  std::vector<RgbdFrame> frames_;
+};
+
+TEST_F(OdometryOnTf, ThatIsLateOrSlowCostsNoFrame) {
+  startWithOdometry();
+  const Diagnostics diagnostics(graph_.handle());
+  constexpr size_t kLate = 5, kEvery = 3;  // frames
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    expectFused(i);
+    if (i >= kLate && (i - kLate) % kEvery == 0) sendOdometry(i - kLate);
+  }
+  EXPECT_EQ(map_status_.all().back()->frames.processed, uint64_t{kFrames});
+  expectMoreOnTf();
+  // What the tracker corrects is the error of odometry, which has none here.
+  expectPose(fromMessage(buffer_.lookupTransform(frame("map"), frame("odom"), ros::Time(0)).transform),
+             Pose::Identity());
+}
+
+TEST_F(OdometryOnTf, ThatIsDeadIsNamedAndCostsNoFrame) {
+  startWithOdometry();
+  const Diagnostics diagnostics(graph_.handle());
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    if (i < 8) sendOdometry(i);
+    expectFused(i);
+  }
+  EXPECT_TRUE(diagnostics.says("icp_tracking", DiagnosticStatus::WARN,
+                               "odometry on tf (" + frame("odom") + " -> " + frame("optical")));
+  expectMoreOnTf();
+  // The robot is where the tracker says, though odometry stands still.
+  const Pose T_map_camera = T_base_camera_ * frames_.front().T_W_D->inverse() * *frames_.back().T_W_D;
+  EXPECT_TRUE(eventually([&] {
+    const Pose found =
+        fromMessage(buffer_.lookupTransform(frame("map"), frame("odom"), ros::Time(0)).transform);
+    return (found * T_odom_base(frames_[7]) * T_base_camera_).isApprox(T_map_camera, 0.01);
+  }));
+}
+
+TEST_F(OdometryOnTf, IsCorrectedWhileTheCameraIsSilentAndTheMapPaused) {
+  startWithOdometry();
+  for (size_t i = 0; i < 4; ++i) {
+    sendOdometry(i);
+    expectFused(i);
+  }
+  expectMoreOnTf();
+  setMode(SetMode::Request::PAUSED);
+  expectMoreOnTf();
+}
+
+TEST_F(OdometryOnTf, ThatNeverComesCostsNoFrameEither) {
+  graph_.handle().setParam("icp_tracking/odom_frame", frame("none_such"));
+  const Diagnostics diagnostics(graph_.handle());
+  loadTracking();
+  for (size_t i = 0; i < 4; ++i) expectFused(i);
+  EXPECT_TRUE(
+      diagnostics.says("icp_tracking", DiagnosticStatus::WARN, "tf does not connect " + frame("none_such")));
+}
+
+}  // namespace
+}  // namespace depth_fusion
