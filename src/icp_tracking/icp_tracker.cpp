@@ -168,8 +168,6 @@ MatchGates IcpTracker::gatesAt(int level) const {
 
 bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView& view,
                             const SystemPrior& prior, const Eigen::AlignedBox3d& box, Alignment& alignment) {
-  // What geometry says weakly is worth more than no measurement.
-  const double threshold = parameters_.degeneracy_threshold * (prior.information ? 1.0 : 0.1);
   const int iterations[] = {parameters_.fine_iterations, parameters_.middle_iterations,
                             parameters_.coarse_iterations};
   const MatchGates gates = gatesAt(level);
@@ -179,7 +177,7 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
         kernels_->accumulateSystem(frame.levels[level], view, alignment.T_M_D, gates, partial_sums_);
     ++alignment.iterations;
     if (alignment.system.inliers < 6.0) return false;
-    const DegeneracyAnalysis analysis(alignment.system, box, threshold);
+    const DegeneracyAnalysis analysis(alignment.system, box, parameters_.degeneracy_threshold);
     const Solution solution = solve(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
     const Vector6d step = limited(solution.twist, gates, box);
     alignment.T_M_D = poseFromTwist(step) * alignment.T_M_D;

@@ -80,6 +80,10 @@ void MeshChunks::noteNext(size_t count) {
   }
 }
 
+void MeshChunks::noteAgain(const MeshChunkIndex& chunk) {
+  if (has_surface_.count(chunk) > 0) note(chunk);
+}
+
 void MeshChunks::forgetAll() {
   changed_.clear();
   is_changed_.clear();

@@ -66,18 +66,16 @@ TEST_F(Inputs, EveryDepthEncoding) {
   EXPECT_EQ(receive(frames_[3], 1.0), nullptr) << "colour is no depth";
 }
 
-TEST_F(Inputs, CompressedTransports) {
-  graph_.handle().setParam("texture_odometry/depth_transport", "compressedDepth");
-  graph_.handle().setParam("texture_odometry/color_transport", "compressed");
+TEST_F(Inputs, CompressedTransportsAreFound) {
   ros::Publisher depth =
       graph_.handle().advertise<sensor_msgs::CompressedImage>("depth/image/compressedDepth", 10);
   ros::Publisher color = graph_.handle().advertise<sensor_msgs::CompressedImage>("rgb/image/compressed", 10);
   ros::Publisher info = graph_.handle().advertise<sensor_msgs::CameraInfo>("depth/camera_info", 10);
-  camera_ = std::make_unique<FakeCamera>(graph_.handle());
   ASSERT_TRUE(graph_.load("texture_odometry"));
   ASSERT_TRUE(eventually([&] {
     return depth.getNumSubscribers() > 0 && color.getNumSubscribers() > 0 && info.getNumSubscribers() > 0;
   }));
+  camera_ = std::make_unique<FakeCamera>(graph_.handle());  // for its headers
   info.publish(makeCameraInfo(camera_->headerOf(frames_[0]), frames_[0].intrinsics));
   publish(color, compressedMessage(frames_[0].color, ".png", "bgr8; png compressed bgr8"), frames_[0]);
   publish(depth, compressedDepthMessage(frames_[0].depth, "16UC1; compressedDepth"), frames_[0]);
@@ -151,46 +149,72 @@ TEST_F(Inputs, StampsOfZeroGetTheTimeOfArrival) {
   ASSERT_NE(message, nullptr);
 }
 
-TEST_F(Inputs, AClockThatJumpsBackBeginsAnew) {
-  Listener<MapStatus> map_status(graph_.handle(), "tsdf_fusion/status");
-  graph_.loadTracking();
-  camera_ = std::make_unique<FakeCamera>(graph_.handle());
-  ASSERT_TRUE(camera_->awaitSubscribers());
-  const auto fuse = [&](const RgbdFrame& frame) {
-    camera_->publish(frame);
-    return map_status.awaitStamp(toRosTime(frame.stamp_s));
-  };
-  for (const RgbdFrame& frame : frames_) ASSERT_TRUE(fuse(frame)->fused);
-  const uint32_t first_map = map_status.all().back()->generation;
-  // The bag begins again.
-  for (RgbdFrame frame : frames_) {
-    frame.stamp_s -= 50.0;
-    const auto status = fuse(frame);
-    ASSERT_NE(status, nullptr);
-    EXPECT_TRUE(status->fused) << status->reason;
-    EXPECT_NE(status->generation, first_map);
-    EXPECT_EQ(status->generation, map_status.all()[4]->generation);
+// A map, and a camera whose clock is then set back.
+class ClockJumps : public Inputs {
+ protected:
+  ClockJumps() : map_status_(graph_.handle(), "tsdf_fusion/status") {}
+
+  void mapFrames() {
+    graph_.loadTracking();
+    camera_ = std::make_unique<FakeCamera>(graph_.handle());
+    ASSERT_TRUE(camera_->awaitSubscribers());
+    for (const RgbdFrame& frame : frames_) ASSERT_TRUE(send(frame)->fused);
+    first_map_ = map_status_.all().back()->generation;
   }
+  MapStatus::ConstPtr send(const RgbdFrame& frame, double patience_s = kPatience_s) {
+    camera_->publish(frame);
+    return map_status_.awaitStamp(toRosTime(frame.stamp_s), patience_s);
+  }
+  // The bag begins again: one image's stamp is not believed, many are.
+  void playAgain() {
+    RgbdFrame frame = frames_[0];
+    frame.stamp_s -= 50.0;
+    for (int i = 0; i < 4; ++i, frame.stamp_s += 0.03) EXPECT_EQ(send(frame, 0.3), nullptr) << i;
+    first_believed_ = send(frame);
+    ASSERT_NE(first_believed_, nullptr);
+    EXPECT_TRUE(first_believed_->fused) << first_believed_->reason;
+    for (RgbdFrame later : {frames_[1], frames_[2], frames_[3]}) {
+      later.stamp_s -= 49.5;
+      const auto status = send(later);
+      ASSERT_NE(status, nullptr);
+      EXPECT_TRUE(status->fused) << status->reason;
+      EXPECT_EQ(status->generation, first_believed_->generation);
+    }
+  }
+
+  Listener<MapStatus> map_status_;
+  uint32_t first_map_ = 0;
+  MapStatus::ConstPtr first_believed_;
+};
+
+TEST_F(ClockJumps, BeginAnewAndSaySo) {
+  mapFrames();
+  playAgain();
+  EXPECT_NE(first_believed_->generation, first_map_);
+  EXPECT_NE(first_believed_->reason.find("the map was emptied"), std::string::npos)
+      << first_believed_->reason;
 }
 
-TEST_F(Inputs, AClockThatJumpsBackCanKeepTheMap) {
-  Listener<MapStatus> map_status(graph_.handle(), "tsdf_fusion/status");
+TEST_F(ClockJumps, CanKeepTheMap) {
   graph_.handle().setParam("icp_tracking/on_clock_jump", "keep");
-  graph_.loadTracking();
-  camera_ = std::make_unique<FakeCamera>(graph_.handle());
-  ASSERT_TRUE(camera_->awaitSubscribers());
-  for (RgbdFrame frame : frames_) {
-    camera_->publish(frame);
-    ASSERT_TRUE(map_status.awaitStamp(toRosTime(frame.stamp_s))->fused);
-  }
-  const uint32_t first_map = map_status.all().back()->generation;
-  for (RgbdFrame frame : frames_) {
-    frame.stamp_s -= 50.0;
-    camera_->publish(frame);
-    const auto status = map_status.awaitStamp(toRosTime(frame.stamp_s));
-    ASSERT_NE(status, nullptr);
+  mapFrames();
+  playAgain();
+  EXPECT_EQ(first_believed_->generation, first_map_);
+  EXPECT_EQ(first_believed_->reason, "");
+}
+
+TEST_F(ClockJumps, OfOneImageCostThatImage) {
+  mapFrames();
+  RgbdFrame frame = frames_.back();
+  for (const double off_s : {-1.5, -50.0, 5.0, 3600.0}) {
+    RgbdFrame wrong = frame;
+    wrong.stamp_s += off_s;
+    EXPECT_EQ(send(wrong, 0.3), nullptr) << off_s;
+    frame.stamp_s += 0.1;
+    const auto status = send(frame);
+    ASSERT_NE(status, nullptr) << off_s;
     EXPECT_TRUE(status->fused) << status->reason;
-    EXPECT_EQ(status->generation, first_map);
+    EXPECT_EQ(status->generation, first_map_);
   }
 }
 

@@ -72,6 +72,40 @@ TEST_F(LiveSurfaceTest, onlyWhatChangedIsPublished) {
   EXPECT_LT(screen.takeTraffic().added, before.size());
 }
 
+TEST_F(LiveSurfaceTest, nothingIsSentWhileNothingChanges) {
+  load();
+  Screen screen(graph_.handle(), "surface_mesh/markers");
+  Listener<sensor_msgs::PointCloud2> points(graph_.handle(), "surface_mesh/points");
+  Listener<Marker> blocks(graph_.handle(), "surface_mesh/blocks");
+  map_.show(twoBalls());
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+  EXPECT_TRUE(eventually([&] {
+    screen.takeTraffic();
+    const size_t before = points.count() + blocks.count();
+    waitForUpdates();
+    return screen.takeTraffic().added == 0 && points.count() + blocks.count() == before;
+  }));
+}
+
+// What does not fit the budget comes coarse or later, and in the end all of it is there.
+TEST_F(LiveSurfaceTest, aSmallBudgetShowsAllOfItInTheEnd) {
+  graph_.handle().setParam("surface_mesh/max_bandwidth_mb_s", 0.1);
+  load();
+  Screen screen(graph_.handle(), "surface_mesh/markers");
+  map_.show(twoBalls());
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+  screen.takeTraffic();
+  const ros::WallTime begin = ros::WallTime::now();
+  for (int i = 0; i < 10; ++i) {
+    map_.show(ball({0.06, 0.06, 0.06}, 0.03 + 0.001 * i));
+    waitForUpdates();
+  }
+  const double seconds = (ros::WallTime::now() - begin).toSec();
+  // A second's worth may have been saved up, and the last message may go beyond it.
+  EXPECT_LT(static_cast<double>(screen.takeTraffic().bytes), 1e5 * (seconds + 3.0));
+  EXPECT_TRUE(screen.shows(map_.mesh()));
+}
+
 TEST_F(LiveSurfaceTest, newParametersShowAllOfItAnew) {
   graph_.handle().setParam("surface_mesh/point_spacing_m", 0.1);
   load();
@@ -90,6 +124,7 @@ TEST_F(LiveSurfaceTest, newParametersShowAllOfItAnew) {
 
 // All the subscribers of a process are one viewer of a topic: nobody tells of the late one.
 TEST_F(LiveSurfaceTest, lateViewersBesideAnotherGetAllOfIt) {
+  graph_.handle().setParam("surface_mesh/refresh_chunks", 2);  // of one process, they go unnoticed
   load();
   Screen early(graph_.handle(), "surface_mesh/markers");
   map_.show(twoBalls());

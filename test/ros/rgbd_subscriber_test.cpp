@@ -43,9 +43,9 @@ class RgbdSubscriberTest : public testing::Test {
 
 TEST_F(RgbdSubscriberTest, FramesComeOneAtATimeInOrderEachWithItsColour) {
   std::mutex mutex;
-  std::vector<SensorFramePtr> received;
+  std::vector<RgbdMessagesPtr> received;
   std::atomic<int> at_work{0};
-  subscribe([&](const SensorFramePtr& frame) {
+  subscribe([&](const RgbdMessagesPtr& frame) {
     EXPECT_EQ(++at_work, 1);
     ros::WallDuration(0.03).sleep();  // meanwhile the next images, and the timer, come in
     --at_work;
@@ -63,7 +63,7 @@ TEST_F(RgbdSubscriberTest, FramesComeOneAtATimeInOrderEachWithItsColour) {
   ASSERT_EQ(received.size(), frames_.size());
   for (size_t i = 0; i < frames_.size(); ++i) {
     EXPECT_EQ(received[i]->header.stamp, toRosTime(frames_[i].stamp_s)) << i;
-    EXPECT_EQ(cv::norm(received[i]->rgbd.color, frames_[i].color, cv::NORM_INF), 0.0) << i;
+    EXPECT_EQ(cv::norm(toColor(received[i]->color, "rgb"), frames_[i].color, cv::NORM_INF), 0.0) << i;
   }
   EXPECT_EQ(counter_.account().received, frames_.size() + 1);
 }
@@ -71,7 +71,7 @@ TEST_F(RgbdSubscriberTest, FramesComeOneAtATimeInOrderEachWithItsColour) {
 TEST_F(RgbdSubscriberTest, NobodyWaitsForAFrameAtWork) {
   std::promise<void> begun, finish;
   std::atomic<int> frames{0};
-  subscribe([&](const SensorFramePtr&) {
+  subscribe([&](const RgbdMessagesPtr&) {
     if (frames++ > 0) return;
     begun.set_value();
     finish.get_future().wait();
@@ -98,7 +98,7 @@ TEST_F(RgbdSubscriberTest, ItsEndWaitsForTheFrameAtWork) {
   std::promise<void> begun;
   std::atomic<bool> is_done{false};
   std::atomic<int> frames{0};
-  subscribe([&](const SensorFramePtr&) {
+  subscribe([&](const RgbdMessagesPtr&) {
     if (frames++ == 0) begun.set_value();
     ros::WallDuration(0.3).sleep();
     is_done = true;
@@ -112,25 +112,65 @@ TEST_F(RgbdSubscriberTest, ItsEndWaitsForTheFrameAtWork) {
   EXPECT_EQ(frames, 1);
 }
 
-TEST_F(RgbdSubscriberTest, AClockSetBackIsCountedInEveryFrameAfterIt) {
+// The frame, with that stamp.
+RgbdFrame at(RgbdFrame frame, double stamp_s) {
+  frame.stamp_s = toRosTime(stamp_s).toSec();
+  return frame;
+}
+
+TEST_F(RgbdSubscriberTest, AClockSetBackIsBelievedOfManyImagesAndCountedInEveryFrameAfterIt) {
   std::mutex mutex;
   std::vector<uint32_t> clock_jumps;
-  subscribe([&](const SensorFramePtr& frame) {
+  subscribe([&](const RgbdMessagesPtr& frame) {
     const std::lock_guard<std::mutex> lock(mutex);
     clock_jumps.push_back(frame->clock_jumps);
   });
-  const auto publish = [&](RgbdFrame frame, double earlier_s, size_t count) {
-    frame.stamp_s -= earlier_s;
-    camera_.publish(frame);
-    EXPECT_TRUE(eventually([&] {
-      const std::lock_guard<std::mutex> lock(mutex);
-      return clock_jumps.size() == count;
-    }));
+  uint64_t sent = 0;
+  const auto publish = [&](double stamp_s) {
+    camera_.publish(at(frames_[0], stamp_s));
+    ++sent;
+    EXPECT_TRUE(eventually([&] { return counter_.account().received == sent; }));
   };
-  publish(frames_[0], 0.0, 1);
-  publish(frames_[0], 50.0, 2);
-  publish(frames_[1], 50.0, 3);
-  EXPECT_EQ(clock_jumps, (std::vector<uint32_t>{0, 1, 1}));
+  publish(100.0);
+  publish(60.0);  // one wrong stamp
+  publish(100.1);
+  for (int i = 0; i < 6; ++i) publish(50.0 + 0.1 * i);
+  EXPECT_TRUE(eventually([&] {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return clock_jumps.size() == 4;
+  }));
+  EXPECT_EQ(clock_jumps, (std::vector<uint32_t>{0, 0, 1, 1}));
+  EXPECT_EQ(droppedFor("doubtful stamp"), 5u);
+}
+
+TEST_F(RgbdSubscriberTest, WhatIsSkippedIsNotDecodedAndWhatCannotBeDecodedIsCounted) {
+  std::vector<RgbdMessagesPtr> waiting;
+  subscribe([&](const RgbdMessagesPtr& frame) { waiting.push_back(frame); });
+  RgbdFrame other_size = frames_[1];
+  other_size.intrinsics.width *= 2;
+  camera_.publish(frames_[0]);
+  EXPECT_TRUE(eventually([&] { return waiting.size() == 1; }));
+  camera_.publish(other_size);
+  EXPECT_TRUE(eventually([&] { return waiting.size() == 2; }));
+  EXPECT_TRUE(counter_.account().dropped.empty()) << "nobody has asked for them yet";
+  EXPECT_NE(subscriber_->decode(*waiting[0]), nullptr) << "by the camera_info of its own stamp";
+  EXPECT_EQ(subscriber_->decode(*waiting[1]), nullptr);
+  EXPECT_EQ(droppedFor("unusable image or camera_info"), 1u);
+}
+
+TEST_F(RgbdSubscriberTest, UnusableColourCostsNoDepth) {
+  std::vector<RgbdMessagesPtr> waiting;
+  subscribe([&](const RgbdMessagesPtr& frame) { waiting.push_back(frame); });
+  RgbdFrame odd = frames_[0];
+  odd.color_intrinsics = odd.intrinsics;
+  odd.color_intrinsics->width /= 2;
+  camera_.publish(odd);
+  EXPECT_TRUE(eventually([&] { return waiting.size() == 1; }));
+  const SensorFramePtr frame = subscriber_->decode(*waiting[0]);
+  ASSERT_NE(frame, nullptr);
+  EXPECT_TRUE(frame->rgbd.color.empty());
+  EXPECT_NE(frame->rgbd.color_problem, "");
+  EXPECT_EQ(subscriber_->problem(), frame->rgbd.color_problem);
 }
 
 }  // namespace

@@ -117,20 +117,22 @@ TEST_F(UnregisteredDepth, IsTrackedAsTheColorCameraSeesIt) {
   expectTracked(kT_C_D.inverse());
 }
 
-TEST_F(UnregisteredDepth, WaitsForTfAndSaysWhatIsMissing) {
+TEST_F(UnregisteredDepth, GoesWithoutColourUntilTfConnectsThemAndSaysWhatIsMissing) {
   Listener<TexturedFrameMessage> textured(graph_.handle(), "texture_odometry/frame");
   ASSERT_TRUE(graph_.load("texture_odometry"));
   ASSERT_TRUE(camera_.awaitSubscribers());
   const std::vector<RgbdFrame> frames = unregisteredFrames(2);
   camera_.publish(frames[0]);
   EXPECT_TRUE(isDiagnosed({name_ + "_depth", name_ + "_color", "tf", "static_transform_publisher"}));
-  EXPECT_EQ(textured.count(), 0u);
+  ASSERT_TRUE(textured.awaitCount(1));
+  EXPECT_TRUE(textured.all().front()->payload->sensor->rgbd.color.empty());
   publishTf();
   RgbdFrame frame = frames[1];
   bool came = false;
   for (int i = 0; i < 100 && !came; ++i, frame.stamp_s += 1.0) {
     camera_.publish(frame);
-    came = textured.awaitStamp(toRosTime(frame.stamp_s), 1.0) != nullptr;
+    const auto message = textured.awaitStamp(toRosTime(frame.stamp_s), 1.0);
+    came = message != nullptr && !message->payload->sensor->rgbd.color.empty();
   }
   ASSERT_TRUE(came);
   EXPECT_TRUE(textured.all().back()->payload->sensor->rgbd.T_C_D->isApprox(kT_C_D, 1e-6));

@@ -72,9 +72,9 @@ class Screen {
     const std::lock_guard<std::mutex> lock(mutex_);
     return markers_;
   }
-  // Holds how many markers came since the last call.
+  // Holds how many markers came since the last call, and how large they were.
   struct Traffic {
-    size_t added = 0, deleted = 0, all_deleted = 0;
+    size_t added = 0, deleted = 0, all_deleted = 0, bytes = 0;
   };
   Traffic takeTraffic() {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -85,6 +85,7 @@ class Screen {
   void apply(const visualization_msgs::Marker& marker) {
     EXPECT_EQ(marker.ns, "surface");
     EXPECT_EQ(marker.header.frame_id, "map");
+    traffic_.bytes += ros::serialization::serializationLength(marker);
     if (marker.action == visualization_msgs::Marker::DELETEALL) {
       ++traffic_.all_deleted;
       markers_.clear();

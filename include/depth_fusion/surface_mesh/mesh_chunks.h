@@ -45,6 +45,9 @@ class MeshChunks {
   // may lack some.
   void noteNext(size_t count);
 
+  // The chunk is to be extracted again, if it has a surface.
+  void noteAgain(const MeshChunkIndex& chunk);
+
   // Chunks that takeChanged() has still to look at, as far as follow() knows.
   size_t changedCount() const { return changed_.size(); }
   // Follows the map, and extracts up to max_count of the changed chunks, those that changed first before the

@@ -19,13 +19,14 @@ float received(const Eigen::Vector3f& light, const Eigen::Vector3f& normal) {
   return half_lambert * half_lambert;
 }
 
-// Two lights of different colours, so that surfaces that face different ways look different.
+// Two lights of one hue, so that surfaces that face different ways look different, and those seen from behind
+// no other than the rest.
 MeshColor shadeOf(const Eigen::Vector3f& normal) {
   const Eigen::Vector3f key = Eigen::Vector3f(-0.5f, 0.35f, 0.8f).normalized();
   const Eigen::Vector3f fill = Eigen::Vector3f(0.6f, -0.8f, -0.1f).normalized();
-  const Eigen::Vector3f color = Eigen::Vector3f(0.10f, 0.11f, 0.14f) +
-                                received(key, normal) * Eigen::Vector3f(0.82f, 0.78f, 0.70f) +
-                                received(fill, normal) * Eigen::Vector3f(0.16f, 0.26f, 0.42f);
+  const Eigen::Vector3f color = Eigen::Vector3f(0.11f, 0.11f, 0.11f) +
+                                received(key, normal) * Eigen::Vector3f(0.80f, 0.77f, 0.72f) +
+                                received(fill, normal) * Eigen::Vector3f(0.27f, 0.26f, 0.24f);
   MeshColor rgb;
   for (int channel = 0; channel < 3; ++channel)
     rgb[channel] = static_cast<uint8_t>(std::lround(255.0f * std::min(1.0f, color[channel])));

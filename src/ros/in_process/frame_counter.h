@@ -17,6 +17,8 @@ class FrameCounter {
  public:
   void receive() { count(received_); }
   void process() { count(processed_); }
+  // So many frames were sent, and lost on their way.
+  void miss(uint32_t frames) { count(missed_, frames); }
   void drop(const std::string& reason) {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++dropped_[reason];
@@ -27,6 +29,7 @@ class FrameCounter {
     FrameAccount account;
     account.received = received_;
     account.processed = processed_;
+    account.missed = missed_;
     for (const auto& [reason, frames] : dropped_) {
       account.reasons.push_back(reason);
       account.dropped.push_back(frames);
@@ -35,14 +38,15 @@ class FrameCounter {
   }
 
  private:
-  void count(uint64_t& number) {
+  void count(uint64_t& number, uint64_t frames = 1) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    ++number;
+    number += frames;
   }
 
   mutable std::mutex mutex_;
   uint64_t received_ = 0;
   uint64_t processed_ = 0;
+  uint64_t missed_ = 0;
   std::map<std::string, uint64_t> dropped_;
 };
 

@@ -1,6 +1,14 @@
 #include "ros/in_process/frame_mapper.h"
 
+#include <ros/console.h>
+
 namespace depth_fusion {
+namespace {
+
+const std::string kEmptied =
+    "the map was emptied, for the clock went back; on_clock_jump: keep would have kept it";
+
+}  // namespace
 
 void FrameMapper::setParameters(const PipelineParameters& parameters) {
   parameters_ = parameters;
@@ -15,7 +23,11 @@ MappingOutcome FrameMapper::map(const TrackedFrame& frame, FusedMap& map, bool r
   const Admission admission = admission_.admit(frame, state, resets_on_jump);
   if (!admission.fuse) return {admission.may_predict_from, false, admission.reason};
   if (admission.begins_map) empty(map);
-  return fuse(frame, map, timers);
+  MappingOutcome outcome = fuse(frame, map, timers);
+  if (!admission.begins_map || state.is_empty) return outcome;
+  outcome.reason = kEmptied + (outcome.reason.empty() ? "" : "; " + outcome.reason);
+  ROS_WARN_STREAM(outcome.reason);
+  return outcome;
 }
 
 void FrameMapper::prepare(const CameraIntrinsics& camera) {

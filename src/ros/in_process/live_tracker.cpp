@@ -26,8 +26,7 @@ void LiveTracker::applyParameters() {
   if (session_ != nullptr) session_->setParameters(pipelineParameters());
 }
 
-void LiveTracker::concludeBefore(const TexturedSensorFrame& next) {
-  if (session_ == nullptr) readySession(next);
+void LiveTracker::conclude() {
   for (const FusionNews& news : fusion_.await()) apply(news);
 }
 
@@ -130,7 +129,7 @@ std::string LiveTracker::refusal(const SensorFrame& frame) const {
 
 void LiveTracker::changeMap(const std::shared_ptr<const MapView>& map) {
   map_ = map;
-  session_->reset(viewPose());
+  if (session_ != nullptr) session_->reset(viewPose());  // one that is made later begins there
   robot_.forget_poses();
 }
 

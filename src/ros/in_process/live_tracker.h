@@ -43,9 +43,9 @@ class LiveTracker {
   // From one thread:
   // Takes over parameters that have changed. Throws Error if they do not fit together.
   void applyParameters();
-  // Waits for fusion's answer to the frame sent last, and concludes that frame. `next` is the frame that
-  // waits for it. Throws Error if the device fails.
-  void concludeBefore(const TexturedSensorFrame& next);
+  // Waits for fusion's answer to the frame sent last, and concludes that frame. Throws Error if the device
+  // fails.
+  void conclude();
   // Finds the frame's pose, or says why it is not to be tracked. Throws Error if the frame cannot be used or
   // the device fails.
   LiveResult track(const TexturedSensorFrame& frame, StageTimers& timers);

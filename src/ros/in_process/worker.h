@@ -6,6 +6,7 @@
 #include <functional>
 #include <future>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace depth_fusion {
@@ -45,13 +46,12 @@ class Worker {
 
   // Serves work that had to wait for something else: if meanwhile as many items wait as can, the item at work
   // is dropped, and the next one returned in its place.
-  Item nextIfFull(const Item& at_work) {
-    Item next = at_work;
+  std::optional<Item> nextIfFull(const Item& at_work) {
+    std::optional<Item> next;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      if (items_.size() < capacity_) return next;
-      next = items_.front();
-      items_.pop_front();
+      if (items_.size() < capacity_) return std::nullopt;
+      next = take(items_);
     }
     drop_(at_work);
     return next;

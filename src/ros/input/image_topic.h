@@ -4,31 +4,63 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #include "ros/conversions/image_message.h"
+#include "ros/input/publisher_watch.h"
 
 namespace depth_fusion {
 
-// The resolved name of the topic on which `image`, as "depth/image", is published with that transport.
-std::string imageTopicName(ros::NodeHandle& handle, const std::string& image, const std::string& transport);
+class PublishedTopics;
+
+constexpr char kRawTransport[] = "raw";
+constexpr char kAutoTransport[] = "auto";
 
 class ImageTopic {
  public:
-  using Callback = std::function<void(const ImageMessage&)>;
+  struct Callbacks {
+    std::function<void(const ImageMessage&)> take;
+    std::function<void(uint32_t)> miss;     // so many messages were sent, and did not come
+    std::function<void()> take_from_other;  // a message of another publisher, which is left out
+  };
 
-  // Subscribes the topic of that name. The callback gets one message at a time, in the order that they come
-  // in, from the threads of the handle's callback queue.
-  ImageTopic(ros::NodeHandle& handle, const std::string& name, const std::string& transport,
-             const Callback& callback);
+  // Subscribes `image`, as "depth/image", with that transport: raw, or what image_transport appends to the
+  // name. "auto" is raw until lookAround() finds one of `compressed` instead. The callbacks get one message
+  // at a time, in the order that they come in, from the threads of the handle's callback queue.
+  ImageTopic(const ros::NodeHandle& handle, const std::string& image, const std::string& transport,
+             const std::vector<std::string>& compressed, const Callbacks& callbacks);
   // Waits for the callback in progress; there is none afterwards.
   ~ImageTopic() { subscriber_.shutdown(); }
   ImageTopic(const ImageTopic&) = delete;
   ImageTopic& operator=(const ImageTopic&) = delete;
 
-  bool isPublished() const { return subscriber_.getNumPublishers() > 0; }
+  // With the transport "auto" and nobody who publishes the topic subscribed now: subscribes the first of the
+  // topic's transports that is published.
+  void lookAround(const PublishedTopics& published);
+
+  // The name of the topic subscribed now.
+  std::string name() const;
+  // Its type, as sensor_msgs/Image.
+  std::string type() const;
+  bool isPublished() const;
+  // That two nodes publish it, and which; empty if they do not.
+  std::string problem() const;
 
  private:
+  void subscribe(const std::string& transport);
+  std::string nameWith(const std::string& transport) const;
+  template <class Message>
+  void receive(const std::string& publisher, const boost::shared_ptr<const Message>& message);
+
+  ros::NodeHandle handle_;
+  const std::string base_name_;
+  const std::vector<std::string> transports_;  // raw first; one if it is given
+  const Callbacks callbacks_;
+  mutable std::mutex mutex_;  // of the rest
+  PublisherWatch publishers_;
+  std::string transport_;
   ros::Subscriber subscriber_;
 };
 

@@ -10,16 +10,18 @@ PosedFrameSubscriber::PosedFrameSubscriber(ros::NodeHandle handle, const RgbdPar
     : map_frame_(map_frame), counter_(counter), callback_(std::move(callback)) {
   listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_, handle);
   filter_ = std::make_unique<tf2_ros::MessageFilter<Message>>(buffer_, map_frame_, queue_size, handle);
-  filter_->registerCallback(&PosedFrameSubscriber::receive, this);
+  filter_->registerCallback(boost::function<void(const Message::ConstPtr&)>([this](const auto& message) {
+    callback_(Deferred<TrackedFrame>([this, messages = message->payload] { return decode(*messages); }));
+  }));
   filter_->registerFailureCallback(
       [this](const Message::ConstPtr& message, tf2_ros::filter_failure_reasons::FilterFailureReason) {
         std::string why;
         buffer_.canTransform(map_frame_, message->header.frame_id, message->header.stamp, &why);
         drop(why);
       });
-  sensor_ =
-      std::make_unique<RgbdSubscriber>(handle, rgbd, device, counter_, [this](const SensorFramePtr& sensor) {
-        filter_->add(makeMessage<SensorFrame>(sensor->header, sensor));
+  sensor_ = std::make_unique<RgbdSubscriber>(
+      handle, rgbd, device, counter_, [this](const RgbdMessagesPtr& messages) {
+        filter_->add(makeMessage<RgbdMessages>(messages->header, messages));
       });
 }
 
@@ -35,21 +37,22 @@ std::string PosedFrameSubscriber::problem() const {
   return of_sensor.empty() ? problem_ : of_sensor;
 }
 
-void PosedFrameSubscriber::receive(const Message::ConstPtr& message) {
+TrackedFramePtr PosedFrameSubscriber::decode(const RgbdMessages& messages) {
   auto frame = std::make_shared<TrackedFrame>();
-  frame->sensor = message->payload;
+  frame->sensor = sensor_->decode(messages);
+  if (frame->sensor == nullptr) return nullptr;
+  const std_msgs::Header& camera = frame->sensor->header;  // the colour camera's, if depth was moved there
   frame->tracking.status = TrackingStatus::kTracking;
   try {
-    frame->tracking.T_W_D = fromMessage(
-        buffer_.lookupTransform(map_frame_, message->header.frame_id, message->header.stamp).transform);
+    frame->tracking.T_W_D =
+        fromMessage(buffer_.lookupTransform(map_frame_, camera.frame_id, camera.stamp).transform);
   } catch (const tf2::TransformException& error) {
-    return drop(error.what());
+    drop(error.what());
+    return nullptr;
   }
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    problem_.clear();
-  }
-  callback_(frame);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  problem_.clear();
+  return frame;
 }
 
 void PosedFrameSubscriber::drop(const std::string& why) {

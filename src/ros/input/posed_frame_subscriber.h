@@ -8,16 +8,17 @@
 #include <functional>
 #include <string>
 
+#include "ros/in_process/deferred.h"
 #include "ros/input/rgbd_subscriber.h"
 
 namespace depth_fusion {
 
 class PosedFrameSubscriber {
  public:
-  using Callback = std::function<void(const TrackedFramePtr&)>;
+  using Callback = std::function<void(const Deferred<TrackedFrame>&)>;
 
-  // At most `queue_size` frames wait for their pose; those that find no room are dropped, counted, and warned
-  // of.
+  // The frames are to be decoded while this lives. At most `queue_size` frames wait for their pose; those
+  // that find no room are dropped, counted, and warned of.
   PosedFrameSubscriber(ros::NodeHandle handle, const RgbdParameters& rgbd, const std::string& device,
                        const std::string& map_frame, int queue_size, FrameCounter& counter,
                        Callback callback);
@@ -29,9 +30,9 @@ class PosedFrameSubscriber {
   std::string problem() const;
 
  private:
-  using Message = ProcessMessage<SensorFrame>;
+  using Message = ProcessMessage<RgbdMessages>;
 
-  void receive(const Message::ConstPtr& message);
+  TrackedFramePtr decode(const RgbdMessages& messages);
   void drop(const std::string& why);
 
   std::string map_frame_;

@@ -13,9 +13,7 @@ constexpr double kFuture_s = 1.0;  // colour this much later than a clock set ba
 
 }  // namespace
 
-void RgbdPairing::addDepth(const std::shared_ptr<SensorFrame>& frame, const ros::WallTime& now) {
-  waiting_.push_back({frame, now});
-}
+void RgbdPairing::addDepth(const std::shared_ptr<RgbdMessages>& depth) { waiting_.push_back(depth); }
 
 void RgbdPairing::addColor(const ros::Time& stamp, const ImageMessage& image) {
   colors_.push_back({stamp, image});
@@ -30,14 +28,14 @@ bool RgbdPairing::firstIsComplete(const ros::WallTime& now, bool color_comes) co
          waited_s(now) > parameters_.max_wait_s;
 }
 
-RgbdPairing::Pair RgbdPairing::takeFirst() {
-  Pair pair{waiting_.front().frame, {}};
+RgbdMessagesPtr RgbdPairing::takeFirst() {
+  const std::shared_ptr<RgbdMessages> taken = waiting_.front();
   waiting_.pop_front();
   const Color* color = nearest(colors_, parameters_.max_gap_s, [&](const Color& candidate) {
-    return std::abs((candidate.stamp - pair.frame->header.stamp).toSec());
+    return std::abs((candidate.stamp - taken->header.stamp).toSec());
   });
-  if (color != nullptr) pair.color = color->image;
-  return pair;
+  if (color != nullptr) taken->color = color->image;
+  return taken;
 }
 
 size_t RgbdPairing::restart(const ros::Time& stamp) {

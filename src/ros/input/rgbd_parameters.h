@@ -14,8 +14,8 @@ struct PairingParameters {
 };
 
 struct RgbdParameters {
-  std::string depth_transport = "raw";  // raw, compressedDepth or compressed
-  std::string color_transport = "raw";  // raw or compressed
+  std::string depth_transport = "auto";  // raw, compressedDepth or compressed
+  std::string color_transport = "auto";  // raw or compressed
   PairingParameters pairing;
   RegistrationParameters registration;  // has a table of its own
 

@@ -1,33 +1,39 @@
 #include "ros/input/rgbd_subscriber.h"
 
 #include "depth_fusion/common/error.h"
+#include "ros/input/missing_topics.h"
 
 namespace depth_fusion {
 namespace {
 
 constexpr double kMaxInfoWait_s = 0.5;  // for camera_info and tf
 constexpr double kReleasePeriod_s = 0.02;
-constexpr double kSilence_s = 2.0;  // without a depth image, before that is a problem
+constexpr double kLookPeriod_s = 1.0;
+constexpr double kSilence_s = 2.0;    // without a depth image, before that is a problem
+constexpr double kWarnAfter_s = 3.0;  // and before the console says so
 
 }  // namespace
 
 RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& parameters,
                                const std::string& device, FrameCounter& counter, Callback callback)
-    : depth_topic_(imageTopicName(handle, "depth/image", parameters.depth_transport)),
-      color_topic_(imageTopicName(handle, "rgb/image", parameters.color_transport)),
-      counter_(counter),
+    : counter_(counter),
       callback_(std::move(callback)),
-      cameras_(handle, depth_topic_, color_topic_),
-      registration_(device),
+      decoder_(handle, device),
       registration_parameters_(parameters.registration),
       pairing_(parameters.pairing),
-      problem_("no depth image yet on " + depth_topic_ + "; is the sensor running, and is that its topic?"),
-      color_(handle, color_topic_, parameters.color_transport,
-             [this](const ImageMessage& image) { onColor(image); }),
-      depth_(handle, depth_topic_, parameters.depth_transport,
-             [this](const ImageMessage& image) { onDepth(image); }),
-      timer_(callbacks_.createWallTimer(handle, ros::WallDuration(kReleasePeriod_s),
-                                        [this](const ros::WallTimerEvent&) { deliverComplete(); })) {}
+      color_(handle, "rgb/image", parameters.color_transport, {"compressed"},
+             {[this](const ImageMessage& image) { onColor(image); }, [](uint32_t) {}, [] {}}),
+      depth_(handle, "depth/image", parameters.depth_transport, {"compressedDepth", "compressed"},
+             {[this](const ImageMessage& image) { onDepth(image); },
+              [this](uint32_t images) { counter_.miss(images); },
+              [this] {
+                counter_.receive();
+                counter_.drop("another publisher");
+              }}),
+      release_timer_(callbacks_.createWallTimer(handle, ros::WallDuration(kReleasePeriod_s),
+                                                [this](const ros::WallTimerEvent&) { deliverComplete(); })),
+      look_timer_(callbacks_.createWallTimer(handle, ros::WallDuration(kLookPeriod_s),
+                                             [this](const ros::WallTimerEvent&) { lookAround(); })) {}
 
 void RgbdSubscriber::setParameters(const RgbdParameters& parameters) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -35,56 +41,57 @@ void RgbdSubscriber::setParameters(const RgbdParameters& parameters) {
   registration_parameters_ = parameters.registration;
 }
 
-std::string RgbdSubscriber::problem() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const double silent_s = (ros::WallTime::now() - last_depth_).toSec();
-  if (last_depth_.isZero() || silent_s < kSilence_s) return problem_;
-  return "no depth image on " + depth_topic_ + " for " + std::to_string(static_cast<int>(silent_s)) +
-         " s; is the sensor running?";
-}
-
 void RgbdSubscriber::onDepth(const ImageMessage& image) {
   counter_.receive();
+  auto messages = std::make_shared<RgbdMessages>();
+  messages->depth = image;
+  messages->header = image.header();
+  messages->received = ros::WallTime::now();
+  messages->depth_topic = depth_.name();
+  messages->color_topic = color_.name();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    last_depth_ = ros::WallTime::now();
+    last_depth_ = messages->received;
+    has_come_ = true;
   }
-  auto frame = std::make_shared<SensorFrame>();
-  frame->header = image.header();
-  if (!takeStamp(*frame)) return;
-  try {
-    const DepthImage depth = toDepth(image, depth_topic_);
-    frame->rgbd.depth = depth.image;
-    frame->rgbd.depth_unit_m = depth.unit_m;
-    frame->depth_message = image.raw;
-  } catch (const std::exception& error) {
-    return drop("unusable depth image", error.what());
-  }
+  if (!takeStamp(*messages)) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    pairing_.addDepth(frame, ros::WallTime::now());
+    pairing_.addDepth(messages);
   }
   deliverComplete();
 }
 
-bool RgbdSubscriber::takeStamp(SensorFrame& frame) {
-  ros::Time& stamp = frame.header.stamp;
-  if (stamp.isZero())
-    ROS_WARN_ONCE("%s: images without a stamp; they get the time of their arrival", depth_topic_.c_str());
+bool RgbdSubscriber::takeStamp(RgbdMessages& messages) {
+  ros::Time& stamp = messages.header.stamp;
   const StampPolicy::Verdict verdict = stamps_.judge(stamp, ros::Time::now());
-  if (verdict.order == StampPolicy::Order::kOutOfOrder) {
-    drop("out of order", depth_topic_ + ": an image is not later than the one before it");
-    return false;
-  }
-  if (verdict.order == StampPolicy::Order::kClockJump) {
-    ROS_WARN("%s: the clock went back by %.3f s", depth_topic_.c_str(), verdict.back_s);
-    const std::lock_guard<std::mutex> lock(mutex_);
-    for (size_t left = pairing_.restart(verdict.stamp); left > 0; --left) counter_.drop("clock jump");
+  const std::string topic = depth_.name();
+  if (verdict.stamp != stamp)
+    ROS_WARN_ONCE("%s: images without a stamp of their own; they get the time of their arrival",
+                  topic.c_str());
+  switch (verdict.order) {
+    case StampPolicy::Order::kOutOfOrder:
+      drop("out of order", topic + ": an image is not later than the one before it");
+      return false;
+    case StampPolicy::Order::kDoubtful:
+      drop("doubtful stamp", topic + ": the stamp of an image is " + std::to_string(verdict.off_s) +
+                                 " s off from the one before it, and neither ROS time nor other images are");
+      return false;
+    case StampPolicy::Order::kClockJump:
+      restart(verdict);
+      break;
+    case StampPolicy::Order::kNext:
+      break;
   }
   stamp = verdict.stamp;
-  frame.rgbd.stamp_s = stamp.toSec();
-  frame.clock_jumps = verdict.clock_jumps;
+  messages.clock_jumps = verdict.clock_jumps;
   return true;
+}
+
+void RgbdSubscriber::restart(const StampPolicy::Verdict& jump) {
+  ROS_WARN("%s: the clock went back by %.3f s, %s", depth_.name().c_str(), -jump.off_s, jump.reason.c_str());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (size_t left = pairing_.restart(jump.stamp); left > 0; --left) counter_.drop("clock jump");
 }
 
 void RgbdSubscriber::onColor(const ImageMessage& image) {
@@ -97,66 +104,45 @@ void RgbdSubscriber::onColor(const ImageMessage& image) {
 
 void RgbdSubscriber::deliverComplete() {
   std::unique_lock<std::mutex> lock(mutex_);
-  turn_.wait(lock, [this] { return !delivering_; });
+  if (delivering_) return;
   delivering_ = true;
-  // Gives the turn back, also when an exception ends it.
-  const std::shared_ptr<void> end_of_turn(nullptr, [&](void*) {
-    if (!lock.owns_lock()) lock.lock();
-    delivering_ = false;
-    turn_.notify_one();
-  });
-  while (const std::optional<RgbdPairing::Pair> pair = takeComplete()) {
-    const RegistrationParameters registration = registration_parameters_;
+  while (const RgbdMessagesPtr messages = takeComplete()) {
     lock.unlock();
-    deliver(*pair, registration);
+    callback_(messages);
     lock.lock();
   }
+  delivering_ = false;
 }
 
-std::optional<RgbdPairing::Pair> RgbdSubscriber::takeComplete() {
-  const SensorFrame* first = pairing_.first();
-  if (first == nullptr) return std::nullopt;
+RgbdMessagesPtr RgbdSubscriber::takeComplete() {
+  const RgbdMessages* first = pairing_.first();
+  if (first == nullptr) return nullptr;
   const ros::WallTime now = ros::WallTime::now();
-  const bool complete = cameras_.areKnown(first->header) ? pairing_.firstIsComplete(now, color_.isPublished())
-                                                         : pairing_.waited_s(now) > kMaxInfoWait_s;
-  if (!complete) return std::nullopt;
-  return pairing_.takeFirst();
+  const bool are_known = decoder_.cameras().areKnown(first->header);
+  const bool waited_in_vain = !are_known && pairing_.waited_s(now) > kMaxInfoWait_s;
+  awaits_cameras_ = (awaits_cameras_ || are_known) && !waited_in_vain;
+  if (!are_known && awaits_cameras_) return nullptr;
+  return pairing_.firstIsComplete(now, color_.isPublished()) ? pairing_.takeFirst() : nullptr;
 }
 
-void RgbdSubscriber::deliver(const RgbdPairing::Pair& pair, const RegistrationParameters& registration) {
-  SensorFrame& frame = *pair.frame;
-  try {
-    if (!pair.color.empty()) decodeColor(frame, pair.color);
-    const std::string color_frame = cameras_.describe(frame);
-    checkColor(frame.rgbd);
-    frame.rgbd = registration_.process(frame.rgbd, registration);
-    const bool moved_to_color = !color_frame.empty() && !frame.rgbd.T_C_D;
-    if (moved_to_color) frame.header.frame_id = color_frame;
-  } catch (const std::exception& error) {
-    return drop("unusable camera_info or tf", error.what());
-  }
+SensorFramePtr RgbdSubscriber::decode(const RgbdMessages& messages) {
+  RegistrationParameters registration;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    problem_.clear();
+    registration = registration_parameters_;
   }
-  callback_(pair.frame);
-}
-
-void RgbdSubscriber::decodeColor(SensorFrame& frame, const ImageMessage& image) const {
   try {
-    frame.rgbd.color = toColor(image, color_topic_);
-    frame.color_message = image.raw;
+    const SensorFramePtr frame = decoder_.decode(messages, registration);
+    const std::string& color_problem = frame->rgbd.color_problem;
+    if (!color_problem.empty()) ROS_WARN_THROTTLE(5.0, "%s; only depth is used", color_problem.c_str());
+    const std::lock_guard<std::mutex> lock(mutex_);
+    problem_.clear();
+    color_problem_ = color_problem;
+    return frame;
   } catch (const std::exception& error) {
-    frame.rgbd.color_problem = error.what();
+    drop("unusable image or camera_info", error.what());
+    return nullptr;
   }
-}
-
-void RgbdSubscriber::checkColor(RgbdFrame& frame) const {
-  if (frame.color.empty() && frame.color_problem.empty()) return;
-  frame.color_problem = colorProblem(frame);
-  if (frame.color_problem.empty()) return;
-  frame.color.release();
-  ROS_WARN_THROTTLE(5.0, "%s: %s; only depth is used", color_topic_.c_str(), frame.color_problem.c_str());
 }
 
 void RgbdSubscriber::drop(const std::string& reason, const std::string& detail) {
@@ -166,6 +152,59 @@ void RgbdSubscriber::drop(const std::string& reason, const std::string& detail) 
     problem_ = detail;
   }
   ROS_WARN_THROTTLE(5.0, "a depth image is left out: %s", detail.c_str());
+}
+
+double RgbdSubscriber::silent_s() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return (ros::WallTime::now() - last_depth_).toSec();
+}
+
+void RgbdSubscriber::lookAround() {
+  const std::string publishers = publishersProblem();
+  if (!publishers.empty()) warn(publishers);
+  if (silent_s() < kLookPeriod_s && color_.isPublished() && decoder_.cameras().hasDepth()) return;
+  const PublishedTopics published;
+  depth_.lookAround(published);
+  color_.lookAround(published);
+  const std::string text = missing(published);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    missing_ = text;
+  }
+  if (silent_s() > kWarnAfter_s) warn(text);
+}
+
+std::string RgbdSubscriber::missing(const PublishedTopics& published) const {
+  constexpr char kImage[] = "sensor_msgs/Image", kCompressed[] = "sensor_msgs/CompressedImage";
+  return missingText({{depth_.name(), "depth_topic", {kImage, kCompressed}},
+                      {decoder_.cameras().depthInfoTopic(), "depth_info_topic", {"sensor_msgs/CameraInfo"}}},
+                     published);
+}
+
+std::string RgbdSubscriber::publishersProblem() const {
+  const std::string of_depth = depth_.problem();
+  return of_depth.empty() ? color_.problem() : of_depth;
+}
+
+void RgbdSubscriber::warn(const std::string& text) {
+  if (text.empty() || text == warned_) return;
+  warned_ = text;
+  ROS_WARN_STREAM(text);
+}
+
+std::string RgbdSubscriber::problem() const {
+  const std::string publishers = publishersProblem();
+  const std::string topic = depth_.name();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const double silent_s = (ros::WallTime::now() - last_depth_).toSec();
+  const std::string names = missing_.empty() ? "" : "; " + missing_;
+  if (!has_come_)
+    return "no depth image yet on " + topic + "; is the sensor running, and is that its topic?" + names;
+  if (silent_s > kSilence_s)
+    return "no depth image on " + topic + " for " + std::to_string(static_cast<int>(silent_s)) +
+           " s; is the sensor running?" + names;
+  if (!problem_.empty()) return problem_;
+  return publishers.empty() ? color_problem_ : publishers;
 }
 
 }  // namespace depth_fusion

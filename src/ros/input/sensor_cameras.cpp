@@ -8,6 +8,7 @@ namespace depth_fusion {
 namespace {
 
 constexpr uint32_t kTopicQueue = 30;
+constexpr size_t kInfosKept = 30;
 
 // The colour camera's frame if it is not the depth camera's, else an empty name.
 std::string otherFrame(const sensor_msgs::CameraInfo* color, const std_msgs::Header& depth) {
@@ -17,67 +18,80 @@ std::string otherFrame(const sensor_msgs::CameraInfo* color, const std_msgs::Hea
 
 }  // namespace
 
-SensorCameras::SensorCameras(ros::NodeHandle handle, const std::string& depth_topic,
-                             const std::string& color_topic)
+SensorCameras::SensorCameras(ros::NodeHandle handle)
     : handle_(handle),
-      depth_topic_(depth_topic),
-      color_topic_(color_topic),
-      info_topic_(handle.resolveName("depth/camera_info")),
-      depth_subscriber_(subscribe(handle, "depth/camera_info", &Infos::depth)),
-      color_subscriber_(subscribe(handle, "rgb/camera_info", &Infos::color)) {}
+      depth_info_topic_(handle.resolveName("depth/camera_info")),
+      color_info_topic_(handle.resolveName("rgb/camera_info")),
+      depth_subscriber_(subscribe(depth_info_topic_, depth_infos_)),
+      color_subscriber_(subscribe(color_info_topic_, color_infos_)) {}
 
 SensorCameras::~SensorCameras() {
   depth_subscriber_.shutdown();
   color_subscriber_.shutdown();
 }
 
-ros::Subscriber SensorCameras::subscribe(ros::NodeHandle& handle, const std::string& name,
-                                         sensor_msgs::CameraInfoConstPtr Infos::*info) {
-  return handle.subscribe<sensor_msgs::CameraInfo>(
-      name, kTopicQueue, [this, info](const sensor_msgs::CameraInfoConstPtr& message) {
+ros::Subscriber SensorCameras::subscribe(const std::string& name, Infos& infos) {
+  return handle_.subscribe<sensor_msgs::CameraInfo>(
+      name, kTopicQueue, [this, &infos](const sensor_msgs::CameraInfoConstPtr& message) {
         const std::lock_guard<std::mutex> lock(mutex_);
-        infos_.*info = message;
+        infos.push_back(message);
+        if (infos.size() > kInfosKept) infos.pop_front();
       });
 }
 
-SensorCameras::Infos SensorCameras::latest() const {
+sensor_msgs::CameraInfoConstPtr SensorCameras::find(const Infos& infos, const ros::Time& stamp) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return infos_;
+  for (auto info = infos.rbegin(); info != infos.rend(); ++info) {
+    if ((*info)->header.stamp == stamp) return *info;
+  }
+  return infos.empty() ? nullptr : infos.back();
+}
+
+bool SensorCameras::hasDepth() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return !depth_infos_.empty();
 }
 
 bool SensorCameras::areKnown(const std_msgs::Header& depth) {
-  const Infos infos = latest();
-  if (infos.depth == nullptr) return false;
-  const std::string color_frame = otherFrame(infos.color.get(), depth);
+  if (!hasDepth()) return false;
+  const std::string color_frame = otherFrame(find(color_infos_, depth.stamp).get(), depth);
   return color_frame.empty() || tf().canTransform(color_frame, depth.frame_id, ros::Time(0));
 }
 
-std::string SensorCameras::describe(SensorFrame& frame) {
-  const Infos infos = latest();
-  describeDepth(infos.depth.get(), frame.rgbd);
-  return describeColor(infos.color.get(), frame);
+std::string SensorCameras::describe(const RgbdMessages& messages, SensorFrame& frame) {
+  const ros::Time& stamp = messages.depth.header().stamp;
+  describeDepth(find(depth_infos_, stamp).get(), messages.depth_topic, frame.rgbd);
+  const auto color = find(color_infos_, messages.color.empty() ? stamp : messages.color.header().stamp);
+  if (color == nullptr) return "";
+  try {
+    return describeColor(*color, messages.color_topic, frame);
+  } catch (const std::exception& error) {
+    frame.rgbd.color_problem = error.what();
+    return "";
+  }
 }
 
-void SensorCameras::describeDepth(const sensor_msgs::CameraInfo* info, RgbdFrame& frame) const {
+void SensorCameras::describeDepth(const sensor_msgs::CameraInfo* info, const std::string& topic,
+                                  RgbdFrame& frame) const {
   check(info != nullptr,
-        "no camera_info yet on " + info_topic_ + "; remap depth/camera_info to the driver's");
-  const CameraModel model = cameraFromInfo(*info, info_topic_, depth_topic_, frame.depth.size());
+        "no camera_info yet on " + depth_info_topic_ + "; remap depth/camera_info to the driver's");
+  const CameraModel model = cameraFromInfo(*info, depth_info_topic_, topic, frame.depth.size());
   frame.intrinsics = model.intrinsics;
   frame.distortion = frame.color_distortion = model.lens;
 }
 
-std::string SensorCameras::describeColor(const sensor_msgs::CameraInfo* info, SensorFrame& frame) {
-  if (info == nullptr) return "";
+std::string SensorCameras::describeColor(const sensor_msgs::CameraInfo& info, const std::string& topic,
+                                         SensorFrame& frame) {
   RgbdFrame& rgbd = frame.rgbd;
-  const cv::Size size = rgbd.color.empty() ? imageSizeOf(*info) : rgbd.color.size();
-  const ColorCamera camera = colorCameraFromInfo(info, color_topic_ + "'s camera_info", color_topic_, size,
-                                                 {rgbd.intrinsics, rgbd.distortion, {}});
+  const cv::Size size = rgbd.color.empty() ? imageSizeOf(info) : rgbd.color.size();
+  const ColorCamera camera =
+      colorCameraFromInfo(&info, color_info_topic_, topic, size, {rgbd.intrinsics, rgbd.distortion, {}});
   rgbd.color_intrinsics = camera.intrinsics;
   rgbd.color_distortion = camera.lens;
   if (!camera.problem.empty()) rgbd.color_problem = camera.problem;
   if (camera.is_registered) return "";
-  const std::string color_frame = otherFrame(info, frame.header);
-  if (!color_frame.empty()) frame.rgbd.T_C_D = lookUp(color_frame, frame.header.frame_id);
+  const std::string color_frame = otherFrame(&info, frame.header);
+  if (!color_frame.empty()) rgbd.T_C_D = lookUp(color_frame, frame.header.frame_id);
   return color_frame;
 }
 

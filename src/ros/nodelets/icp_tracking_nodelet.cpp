@@ -1,6 +1,7 @@
 // ICP tracking: the pose of every frame against the model view, over tf2 and as messages.
 #include <pluginlib/class_list_macros.hpp>
 
+#include "ros/in_process/deferred.h"
 #include "ros/in_process/live_tracker.h"
 #include "ros/in_process/worker.h"
 #include "ros/input/rgbd_subscriber.h"
@@ -10,6 +11,8 @@
 #include "ros/parameters/shared_rows.h"
 
 namespace depth_fusion {
+
+using WaitingFrame = Deferred<TexturedSensorFrame>;
 
 class IcpTrackingNodelet : public StageNodelet {
  public:
@@ -21,7 +24,8 @@ class IcpTrackingNodelet : public StageNodelet {
   void applyParameters() override;
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void subscribe();
-  void process(const TexturedFramePtr& waiting);
+  TexturedFramePtr decode(const RgbdMessages& messages);
+  void process(const WaitingFrame& waiting);
   void publish(const SensorFrame& frame, const LiveResult& result, StageTimers& timers);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
@@ -34,7 +38,7 @@ class IcpTrackingNodelet : public StageNodelet {
   std::unique_ptr<PosePublisher> pose_publisher_;
   std::unique_ptr<TrackerReport> report_;
   std::unique_ptr<LiveTracker> tracker_;
-  std::unique_ptr<Worker<TexturedFramePtr>> worker_;
+  std::unique_ptr<Worker<WaitingFrame>> worker_;
   std::unique_ptr<RgbdSubscriber> sensor_subscriber_;  // without texture odometry
 };
 
@@ -42,9 +46,9 @@ IcpTrackingNodelet::~IcpTrackingNodelet() {
   stopServing();
   frame_subscriber_.shutdown();
   view_subscriber_.shutdown();
-  sensor_subscriber_.reset();
   if (tracker_ != nullptr) tracker_->fusion().stop();
   if (worker_ != nullptr) worker_->stop();
+  sensor_subscriber_.reset();
 }
 
 void IcpTrackingNodelet::start() {
@@ -57,11 +61,11 @@ void IcpTrackingNodelet::start() {
       LiveTracker::Robot{
           [this](const std_msgs::Header& camera) { return pose_publisher_->startPose(camera); },
           [this] { pose_publisher_->reset(); }});
-  worker_ = std::make_unique<Worker<TexturedFramePtr>>(
-      queue_size_, [this](const TexturedFramePtr& frame) { process(frame); },
-      [this](const TexturedFramePtr& frame) {
+  worker_ = std::make_unique<Worker<WaitingFrame>>(
+      queue_size_, [this](const WaitingFrame& frame) { process(frame); },
+      [this](const WaitingFrame& frame) {
         counter_.drop(kTooSlow);
-        tracker_->skip(*frame);
+        if (frame.ready() != nullptr) tracker_->skip(*frame.ready());
       });
   subscribe();
   startReporting();
@@ -78,10 +82,16 @@ void IcpTrackingNodelet::subscribe() {
     return;
   }
   sensor_subscriber_ = std::make_unique<RgbdSubscriber>(
-      getMTNodeHandle(), rgbd_, parameters_.device, counter_, [this](const SensorFramePtr& sensor) {
-        worker_->push(std::make_shared<TexturedSensorFrame>(
-            TexturedSensorFrame{sensor, withoutTexture("no texture odometry"), nullptr}));
+      getMTNodeHandle(), rgbd_, parameters_.device, counter_, [this](const RgbdMessagesPtr& messages) {
+        worker_->push(WaitingFrame([this, messages] { return decode(*messages); }));
       });
+}
+
+TexturedFramePtr IcpTrackingNodelet::decode(const RgbdMessages& messages) {
+  const SensorFramePtr sensor = sensor_subscriber_->decode(messages);
+  if (sensor == nullptr) return nullptr;
+  return std::make_shared<TexturedSensorFrame>(
+      TexturedSensorFrame{sensor, withoutTexture("no texture odometry"), nullptr});
 }
 
 void IcpTrackingNodelet::loadAll() {
@@ -103,18 +113,20 @@ void IcpTrackingNodelet::applyParameters() {
   if (sensor_subscriber_ != nullptr) sensor_subscriber_->setParameters(rgbd_);
 }
 
-void IcpTrackingNodelet::process(const TexturedFramePtr& waiting) {
+void IcpTrackingNodelet::process(const WaitingFrame& waiting) {
   StageTimers timers;
-  TexturedFramePtr frame = waiting;
+  TexturedFramePtr frame;
   LiveResult result;
   try {
-    tracker_->concludeBefore(*frame);
-    frame = worker_->nextIfFull(frame);
-    result = tracker_->track(*frame, timers);
+    tracker_->conclude();
+    frame = worker_->nextIfFull(waiting).value_or(waiting).take();
+    if (frame != nullptr) result = tracker_->track(*frame, timers);
   } catch (const std::exception& error) {
     NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << error.what());
     result = tracker_->fail(error.what());
+    if (frame == nullptr) frame = waiting.take();
   }
+  if (frame == nullptr) return;
   publish(*frame->sensor, result, timers);
   if (result.tracking.status != TrackingStatus::kLost) tracker_->send(frame->sensor, result.tracking);
   recordTimings(timers);
@@ -125,6 +137,7 @@ void IcpTrackingNodelet::publish(const SensorFrame& frame, const LiveResult& res
   const bool lost = result.tracking.status == TrackingStatus::kLost;
   if (lost) {
     counter_.drop(result.lost_for);
+    pose_publisher_->showSign((result.lost_for == kLost ? "LOST: " : "") + result.tracking.reason);
   } else {
     counter_.process();
     pose_publisher_->publish(frame.header, result.tracking.T_W_D, result.tracking.covariance);

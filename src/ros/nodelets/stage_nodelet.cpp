@@ -1,8 +1,10 @@
 #include "ros/nodelets/stage_nodelet.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "depth_fusion/common/percentile.h"
+#include "ros/input/published_topics.h"
 #include "ros/parameters/parameter_server.h"
 
 namespace depth_fusion {
@@ -79,6 +81,7 @@ void StageNodelet::recordTimings(const StageTimers& timers) {
 
 void StageNodelet::report() {
   publishTimings();
+  checkClock();
   updater_->force_update();
 }
 
@@ -97,6 +100,19 @@ void StageNodelet::publishTimings() {
   }
   last_timings_ = timings;
   timings_publisher_.publish(timings);
+}
+
+void StageNodelet::checkClock() {
+  const ros::Time now = ros::Time::now();
+  still_reports_ = now == std::exchange(last_time_, now) ? still_reports_ + 1 : 0;
+  if (still_reports_ == 0) clock_problem_.clear();
+  if (still_reports_ < kSilentReports || !clock_problem_.empty()) return;
+  if (!ros::Time::isSimTime() || PublishedTopics().contains("/clock")) return;
+  clock_problem_ =
+      "use_sim_time is set, but nobody publishes /clock, so that time stands still; rosparam set "
+      "use_sim_time "
+      "false, and start the nodelets again";
+  NODELET_WARN_STREAM(getName() << ": " << clock_problem_);
 }
 
 void StageNodelet::warnOfMissingFrames(const FrameAccount& account,
@@ -119,11 +135,13 @@ void StageNodelet::diagnoseFrames(diagnostic_updater::DiagnosticStatusWrapper& s
   status.summary(DiagnosticStatus::OK, "running");
   diagnose(status);
   warnOfMissingFrames(account, status);
+  if (!clock_problem_.empty()) status.summary(DiagnosticStatus::WARN, clock_problem_);
   status.add("frames a second",
              static_cast<double>(account.processed - last_account_.processed) / kReportPeriod_s);
   last_account_ = account;
   status.add("frames received", account.received);
   status.add("frames processed", account.processed);
+  if (account.missed > 0) status.add("frames missed", account.missed);
   for (size_t i = 0; i < account.reasons.size(); ++i)
     status.add("dropped: " + account.reasons[i], account.dropped[i]);
   for (size_t i = 0; i < last_timings_.stages.size(); ++i)

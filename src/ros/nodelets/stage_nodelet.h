@@ -70,6 +70,8 @@ class StageNodelet : public nodelet::Nodelet {
   // Warns if no frame came since the last report, or if many were skipped.
   void warnOfMissingFrames(const FrameAccount& account, diagnostic_updater::DiagnosticStatusWrapper& status);
   void publishTimings();
+  // Warns, once, if ROS time stands still because nobody publishes it.
+  void checkClock();
 
   std::vector<ParameterGroup> parameter_groups_;
   dynamic_reconfigure::Config default_parameters_;
@@ -84,6 +86,9 @@ class StageNodelet : public nodelet::Nodelet {
   std::string frame_source_;  // the nodelet that frames come from; empty: from topics
   FrameAccount last_account_;
   int silent_reports_ = 0;
+  std::string clock_problem_;
+  ros::Time last_time_;  // at the last report
+  int still_reports_ = 0;
 };
 
 template <class Payload>

@@ -16,15 +16,15 @@ class TextureOdometryNodelet : public StageNodelet {
  public:
   ~TextureOdometryNodelet() override {
     stopServing();
-    subscriber_.reset();
     if (worker_ != nullptr) worker_->stop();
+    subscriber_.reset();
   }
 
  private:
   void start() override;
   void applyParameters() override;
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
-  void process(const SensorFramePtr& sensor);
+  void process(const RgbdMessagesPtr& messages);
   void findMotion(const SensorFramePtr& sensor);
   void publishOdometry(const TexturedSensorFrame& frame);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
@@ -33,7 +33,7 @@ class TextureOdometryNodelet : public StageNodelet {
   DepthSensorParameters depth_sensor_;
   RgbdParameters rgbd_;
   std::string device_, odom_frame_ = "texture_odom";
-  int queue_size_ = 3;
+  int queue_size_ = 2;
   std::unique_ptr<TextureOdometry> odometry_;
   std::shared_ptr<const TextureOdometryParameters>
       odometry_parameters_;  // the same, for those who get the frames
@@ -43,7 +43,7 @@ class TextureOdometryNodelet : public StageNodelet {
   ros::Publisher frame_publisher_, odometry_publisher_;
   std::mutex status_mutex_;
   std::string no_motion_;  // why the last frame has no motion
-  std::unique_ptr<Worker<SensorFramePtr>> worker_;
+  std::unique_ptr<Worker<RgbdMessagesPtr>> worker_;
   std::unique_ptr<RgbdSubscriber> subscriber_;
 };
 
@@ -61,12 +61,12 @@ void TextureOdometryNodelet::start() {
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
   frame_publisher_ = handle.advertise<TexturedFrameMessage>("frame", kProcessQueue);
   odometry_publisher_ = handle.advertise<nav_msgs::Odometry>("odometry", 10);
-  worker_ = std::make_unique<Worker<SensorFramePtr>>(
-      queue_size_, [this](const SensorFramePtr& frame) { process(frame); },
-      [this](const SensorFramePtr&) { counter_.drop(kTooSlow); });
+  worker_ = std::make_unique<Worker<RgbdMessagesPtr>>(
+      queue_size_, [this](const RgbdMessagesPtr& messages) { process(messages); },
+      [this](const RgbdMessagesPtr&) { counter_.drop(kTooSlow); });
   subscriber_ =
       std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, device_, counter_,
-                                       [this](const SensorFramePtr& frame) { worker_->push(frame); });
+                                       [this](const RgbdMessagesPtr& messages) { worker_->push(messages); });
   startReporting();
 }
 
@@ -76,9 +76,9 @@ void TextureOdometryNodelet::applyParameters() {
   if (subscriber_ != nullptr) subscriber_->setParameters(rgbd_);
 }
 
-void TextureOdometryNodelet::process(const SensorFramePtr& sensor) {
+void TextureOdometryNodelet::process(const RgbdMessagesPtr& messages) {
   try {
-    findMotion(sensor);
+    if (const SensorFramePtr sensor = subscriber_->decode(*messages)) findMotion(sensor);
   } catch (const std::exception& error) {
     counter_.drop("error");
     NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << error.what());
@@ -119,6 +119,9 @@ void TextureOdometryNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrappe
   const std::lock_guard<std::mutex> lock(status_mutex_);
   if (!problem.empty()) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, problem);
+  } else if (!subscriber_->hasColor()) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                   "nobody publishes colour; tracking goes by depth alone");
   } else if (!no_motion_.empty()) {
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no motion: " + no_motion_);
   }

@@ -6,6 +6,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "depth_fusion/pipeline/warm_up.h"
+#include "ros/in_process/deferred.h"
 #include "ros/in_process/frame_mapper.h"
 #include "ros/in_process/worker.h"
 #include "ros/input/posed_frame_subscriber.h"
@@ -14,6 +15,8 @@
 #include "ros/output/map_reporter.h"
 
 namespace depth_fusion {
+
+using WaitingFrame = Deferred<TrackedFrame>;
 
 class TsdfFusionNodelet : public StageNodelet {
  public:
@@ -25,7 +28,7 @@ class TsdfFusionNodelet : public StageNodelet {
   void subscribe();
   void applyParameters() override;
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
-  void process(const TrackedFramePtr& frame);  // in the worker's thread
+  void process(const TrackedFrame& frame);  // in the worker's thread
   bool serveReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool serveMode(SetMode::Request& request, SetMode::Response& response);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
@@ -36,15 +39,15 @@ class TsdfFusionNodelet : public StageNodelet {
   std::unique_ptr<MapReporter> reporter_;
   ros::Subscriber frame_subscriber_;
   ros::ServiceServer reset_server_, mode_server_;
-  std::unique_ptr<Worker<TrackedFramePtr>> worker_;
+  std::unique_ptr<Worker<WaitingFrame>> worker_;
   std::unique_ptr<PosedFrameSubscriber> posed_subscriber_;  // of frames with poses from elsewhere
 };
 
 TsdfFusionNodelet::~TsdfFusionNodelet() {
   stopServing();
   frame_subscriber_.shutdown();
-  posed_subscriber_.reset();
   if (worker_ != nullptr) worker_->stop();
+  posed_subscriber_.reset();
 }
 
 void TsdfFusionNodelet::start() {
@@ -62,9 +65,12 @@ void TsdfFusionNodelet::start() {
 void TsdfFusionNodelet::advertise() {
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
   reporter_ = std::make_unique<MapReporter>(map_, handle, kProcessQueue);
-  worker_ = std::make_unique<Worker<TrackedFramePtr>>(
-      parameters_.queue_size, [this](const TrackedFramePtr& frame) { process(frame); },
-      [this](const TrackedFramePtr&) { counter_.drop(kTooSlow); });
+  worker_ = std::make_unique<Worker<WaitingFrame>>(
+      parameters_.queue_size,
+      [this](const WaitingFrame& waiting) {
+        if (const TrackedFramePtr frame = waiting.take()) process(*frame);
+      },
+      [this](const WaitingFrame&) { counter_.drop(kTooSlow); });
   subscribe();
   reset_server_ = callbacks_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
       handle, "reset_volume",
@@ -77,7 +83,7 @@ void TsdfFusionNodelet::subscribe() {
   if (parameters_.isExternal()) {
     posed_subscriber_ = std::make_unique<PosedFrameSubscriber>(
         getMTNodeHandle(), parameters_.rgbd, parameters_.device, parameters_.map_frame,
-        parameters_.tf_queue_size, counter_, [this](const TrackedFramePtr& frame) { worker_->push(frame); });
+        parameters_.tf_queue_size, counter_, [this](const WaitingFrame& frame) { worker_->push(frame); });
   } else {
     frame_subscriber_ = subscribeInProcess<TrackedFrame>(
         "icp_tracking/frame", "icp_tracking", Carries::kFrames,
@@ -95,14 +101,14 @@ void TsdfFusionNodelet::applyParameters() {
   });
 }
 
-void TsdfFusionNodelet::process(const TrackedFramePtr& frame) {
+void TsdfFusionNodelet::process(const TrackedFrame& frame) {
   StageTimers timers;
   map_->locked([&](FusedMap& map) {
-    const std_msgs::Header& header = frame->sensor->header;
+    const std_msgs::Header& header = frame.sensor->header;
     MappingOutcome outcome;
     try {
-      outcome = mapper_->map(*frame, map, parameters_.resetsOnClockJump(), timers);
-      if (outcome.accepted && reporter_->hasViewers()) mapper_->render(*frame, map, timers);
+      outcome = mapper_->map(frame, map, parameters_.resetsOnClockJump(), timers);
+      if (outcome.accepted && reporter_->hasViewers()) mapper_->render(frame, map, timers);
       reporter_->answer(header, outcome, *mapper_, map);
       if (outcome.accepted)
         reporter_->picture().publish(header, mapper_->renderer(map), parameters_.picture, timers);
@@ -121,7 +127,7 @@ bool TsdfFusionNodelet::serveReset(std_srvs::Trigger::Request&, std_srvs::Trigge
   const MapReset reset{ros::WallTime::now(), ros::Time::now()};
   map_->locked([&](FusedMap& map) {
     mapper_->reset(map, reset);
-    reporter_->announce("the map is empty", *mapper_, map, counter_.account());
+    reporter_->announce("the map was emptied by reset_volume", *mapper_, map, counter_.account());
   });
   response.success = true;
   response.message = "the map is empty; it begins anew with the next frame";
@@ -129,12 +135,16 @@ bool TsdfFusionNodelet::serveReset(std_srvs::Trigger::Request&, std_srvs::Trigge
 }
 
 bool TsdfFusionNodelet::serveMode(SetMode::Request& request, SetMode::Response& response) {
-  response.success = request.mode <= static_cast<uint8_t>(MapMode::kPaused);
-  response.message = response.success ? "" : "mode must be 0 (mapping), 1 (localisation) or 2 (paused)";
+  constexpr const char* kModes[] = {"mapping: frames are tracked, and fused into the map",
+                                    "localisation only: frames are tracked, and the map stays as it is",
+                                    "paused: frames are neither tracked nor fused"};
+  response.success = request.mode < std::size(kModes);
+  response.message = "mode must be 0 (mapping), 1 (localisation) or 2 (paused)";
   if (!response.success) return true;
+  response.message = kModes[request.mode];
   map_->locked([&](FusedMap& map) {
     mapper_->admission().setMode(static_cast<MapMode>(request.mode));
-    reporter_->announce("another mode", *mapper_, map, counter_.account());
+    reporter_->announce(response.message, *mapper_, map, counter_.account());
   });
   return true;
 }

@@ -7,6 +7,13 @@
 
 namespace depth_fusion {
 
+namespace {
+
+constexpr double kTriangleBytes = 120.0;  // of a marker: three corners of 24 bytes, and three colours of 16
+constexpr double kCoarsest = 0.1;         // share of a chunk's triangles
+
+}  // namespace
+
 using visualization_msgs::MarkerArray;
 using visualization_msgs::MarkerArrayPtr;
 
@@ -24,17 +31,20 @@ void LiveSurface::showAll() {
   map->locked([this](FusedMap&) { chunks_->noteAll(); });
 }
 
-MarkerArrayPtr LiveSurface::update(bool with_markers, bool with_points) {
+MarkerArrayPtr LiveSurface::update(bool with_markers, bool with_points, ByteBudget& budget) {
   const auto markers = boost::make_shared<MarkerArray>();
   const std::shared_ptr<SharedMap> map = map_.lock();
   if (map == nullptr) return markers;
   if (beginAnew(*map) && with_markers) markers->markers.push_back(makeDeletionOfAll(map->frame_id));
   if (!with_points) points_.clear();
   if (with_markers) refresh();
-  for (int i = 0; i < parameters_.chunks_per_update; ++i) {
+  for (int i = 0; i < parameters_.chunks_per_update && budget.left() > 0.0; ++i) {
+    noteCoarse();
     for (const MeshChunk& chunk : takeChunk(*map)) {
-      if (with_markers) markers->markers.push_back(markerOf(map->frame_id, chunk));
       if (with_points) keepPoints(chunk);
+      if (!with_markers) continue;
+      markers->markers.push_back(markerOf(map->frame_id, chunk, budget.left()));
+      budget.spend(ros::serialization::serializationLength(markers->markers.back()));
     }
   }
   return markers;
@@ -46,6 +56,8 @@ bool LiveSurface::beginAnew(SharedMap& map) {
   generation_ = chunks_->generation();
   marker_ids_.clear();
   points_.clear();
+  points_changed_ = true;
+  coarse_.clear();
   return true;
 }
 
@@ -55,6 +67,10 @@ void LiveSurface::refresh() {
     chunks_->noteNext(std::min<size_t>(parameters_.refresh_chunks, room - chunks_->changedCount()));
 }
 
+void LiveSurface::noteCoarse() {
+  if (chunks_->changedCount() == 0 && !coarse_.empty()) chunks_->noteAgain(*coarse_.begin());
+}
+
 // One at a time, so that mapping never waits for more.
 std::vector<MeshChunk> LiveSurface::takeChunk(SharedMap& map) {
   return map.locked([this](FusedMap& fused) {
@@ -62,14 +78,27 @@ std::vector<MeshChunk> LiveSurface::takeChunk(SharedMap& map) {
   });
 }
 
-visualization_msgs::Marker LiveSurface::markerOf(const std::string& frame_id, const MeshChunk& chunk) {
+visualization_msgs::Marker LiveSurface::markerOf(const std::string& frame_id, const MeshChunk& chunk,
+                                                 double left_bytes) {
   const int id = marker_ids_.emplace(chunk.index, static_cast<int>(marker_ids_.size())).first->second;
+  coarse_.erase(chunk.index);
   if (chunk.mesh.triangles.empty()) return makeDeletion(frame_id, id);
-  return makeSurfaceMarker(frame_id, id,
-                           simplified(chunk.mesh, parameters_.triangle_share, OpenBorders::kStay));
+  const double share = shareOf(chunk, left_bytes);
+  if (share < parameters_.triangle_share) coarse_.insert(chunk.index);
+  return makeSurfaceMarker(frame_id, id, simplified(chunk.mesh, share, OpenBorders::kStay));
+}
+
+double LiveSurface::shareOf(const MeshChunk& chunk, double left_bytes) const {
+  const double whole_share = parameters_.triangle_share;
+  const size_t others = std::min<size_t>(chunks_->changedCount(), parameters_.chunks_per_update);
+  if (others == 0 || !canSimplify()) return whole_share;
+  const double fair_bytes = left_bytes / static_cast<double>(others + 1);
+  const double fitting = fair_bytes / (kTriangleBytes * static_cast<double>(chunk.mesh.triangles.size()));
+  return std::min(whole_share, std::max(fitting, kCoarsest));
 }
 
 void LiveSurface::keepPoints(const MeshChunk& chunk) {
+  points_changed_ = true;
   if (chunk.mesh.triangles.empty()) {
     points_.erase(chunk.index);
   } else {

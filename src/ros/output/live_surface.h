@@ -6,9 +6,12 @@
 
 #include <map>
 #include <memory>
+#include <set>
+#include <utility>
 
 #include "depth_fusion/surface_mesh/mesh_chunks.h"
 #include "ros/in_process/shared_map.h"
+#include "ros/output/byte_budget.h"
 #include "ros/output/live_surface_parameters.h"
 
 namespace depth_fusion {
@@ -23,8 +26,12 @@ class LiveSurface {
   // All chunks count as changed, for viewers that come late.
   void showAll();
   // Takes the next chunks that changed. The first time and after a reset the markers begin with a DELETEALL.
-  // Without `with_markers` there are no markers; without `with_points` points() has none.
-  visualization_msgs::MarkerArrayPtr update(bool with_markers, bool with_points);
+  // Without `with_markers` there are no markers; without `with_points` points() has none. It ends when the
+  // budget is spent. While more has changed than fits, chunks are simplified; they come again whole when
+  // there is room.
+  visualization_msgs::MarkerArrayPtr update(bool with_markers, bool with_points, ByteBudget& budget);
+  // Whether points() is another than at the last call.
+  bool pointsChanged() { return std::exchange(points_changed_, false); }
   // The points of all the chunks taken so far.
   sensor_msgs::PointCloud2Ptr points(const std_msgs::Header& header) const;
 
@@ -32,8 +39,12 @@ class LiveSurface {
   // Whether the map was reset since the last time.
   bool beginAnew(SharedMap& map);
   void refresh();
+  // If nothing else has changed, a chunk that is shown coarse is to be taken again.
+  void noteCoarse();
   std::vector<MeshChunk> takeChunk(SharedMap& map);
-  visualization_msgs::Marker markerOf(const std::string& frame_id, const MeshChunk& chunk);
+  visualization_msgs::Marker markerOf(const std::string& frame_id, const MeshChunk& chunk, double left_bytes);
+  // The part of the chunk's triangles that its marker keeps.
+  double shareOf(const MeshChunk& chunk, double left_bytes) const;
   void keepPoints(const MeshChunk& chunk);
 
   LiveSurfaceParameters parameters_;
@@ -42,6 +53,8 @@ class LiveSurface {
   uint32_t generation_ = 0;             // of the map shown; 0: none yet
   std::map<MeshChunkIndex, int> marker_ids_;
   std::map<MeshChunkIndex, TriangleMesh> points_;
+  bool points_changed_ = true;
+  std::set<MeshChunkIndex> coarse_;  // chunks shown with fewer triangles than they should have
 };
 
 }  // namespace depth_fusion

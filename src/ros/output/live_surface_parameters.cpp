@@ -8,11 +8,14 @@ ParameterTable LiveSurfaceParameters::table() {
           number("chunks_per_update", &chunks_per_update, 1, 10000,
                  "chunks published at a time at most; those that changed first come first"),
           number("refresh_chunks", &refresh_chunks, 0, 10000,
-                 "chunks that did not change, published once more at each update that has room, in turn: a "
-                 "viewer that was not noticed or lost a message has all of them in the end"),
+                 "chunks that did not change, published once more at each update that has room, in turn, for "
+                 "viewers that lost messages, or that joined another of their process; 0 = none"),
           number("triangle_share", &triangle_share, 0.001, 1.0,
                  "part of a chunk's triangles that its marker keeps; below 1 takes less bandwidth and more "
                  "of the CPU"),
+          number("max_bandwidth_mb_s", &max_bandwidth_mb_s, 0.1, 1000.0,
+                 "MB/s to each viewer at most: while more than that changes, chunks are simplified, and come "
+                 "whole when less does"),
           number("point_spacing_m", &point_spacing_m, 0.0, 10.0,
                  "edge of the cubes that have one point each; 0 = all vertices")};
 }

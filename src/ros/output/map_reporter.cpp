@@ -1,6 +1,6 @@
 #include "ros/output/map_reporter.h"
 
-#include <sensor_msgs/Image.h>
+#include <ros/console.h>
 
 #include <boost/make_shared.hpp>
 
@@ -12,7 +12,7 @@ MapReporter::MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle&
     : map_(map),
       view_publisher_(handle.advertise<MapViewMessage>("model_view", view_queue)),
       status_publisher_(handle.advertise<MapStatus>("status", 100, true)),
-      picture_(handle.advertise<sensor_msgs::Image>("model_view/image", 1)) {}
+      picture_(handle) {}
 
 void MapReporter::answer(const std_msgs::Header& header, const MappingOutcome& outcome,
                          const FrameMapper& mapper, FusedMap& map) {
@@ -41,8 +41,9 @@ void MapReporter::publishStatus(const std_msgs::Header& header, const MappingOut
 
 void MapReporter::announce(const std::string& news, const FrameMapper& mapper, FusedMap& map,
                            const FrameAccount& frames) {
+  ROS_INFO_STREAM(news);
   answer(std_msgs::Header(), {false, false, news}, mapper, map);
-  publishStatus(std_msgs::Header(), {}, mapper, map, frames);
+  publishStatus(std_msgs::Header(), {false, false, news}, mapper, map, frames);
 }
 
 void MapReporter::diagnose(const std::string& problem, diagnostic_updater::DiagnosticStatusWrapper& status) {

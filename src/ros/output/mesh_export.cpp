@@ -1,5 +1,7 @@
 #include "ros/output/mesh_export.h"
 
+#include <wordexp.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -50,6 +52,19 @@ fs::path rosHome() {
   return fs::path(home == nullptr ? "/" : home) / ".ros";
 }
 
+// As a shell does it: ~ and environment variables. Throws Error for what no shell would take.
+std::string expanded(const std::string& path) {
+  wordexp_t words;
+  std::string quoted;  // blanks are part of the name
+  for (const char c : path)
+    quoted += (c == ' ' || c == '&' || c == '(' || c == ')' ? "\\" : "") + std::string(1, c);
+  const bool is_good = wordexp(quoted.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF) == 0;
+  const std::string result = is_good && words.we_wordc == 1 ? words.we_wordv[0] : "";
+  if (is_good) wordfree(&words);
+  check(!result.empty(), "the path " + path + " has a variable that is not set, or signs that no path has");
+  return result;
+}
+
 // 1 if all triangles are to be kept.
 double checkedShare(double simplification) {
   check(simplification >= 0.0 && simplification <= 1.0,
@@ -79,7 +94,7 @@ std::unique_ptr<BlockMap> snapshotOf(SharedMap& map, bool with_color) {
 }  // namespace
 
 std::string absolutePath(const std::string& path) {
-  return fs::absolute(rosHome() / fs::path(path)).lexically_normal().string();
+  return fs::absolute(rosHome() / fs::path(expanded(path))).lexically_normal().string();
 }
 
 ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,

@@ -7,7 +7,8 @@
 
 namespace depth_fusion {
 
-// The path itself if it is absolute, else below ROS_HOME (~/.ros without that variable).
+// The path itself if it is absolute, else below ROS_HOME (~/.ros without that variable). ~ and environment
+// variables are expanded. Throws Error for one that is not set.
 std::string absolutePath(const std::string& path);
 
 // Writes the surface of the map as it is now. The map is locked for a snapshot only. Throws Error for a

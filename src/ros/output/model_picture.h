@@ -1,7 +1,7 @@
-// The map as the camera sees it, as a picture for viewers.
+// The map as the camera sees it: a picture for viewers, and depth without holes for other nodes.
 #pragma once
 
-#include <ros/publisher.h>
+#include <ros/node_handle.h>
 
 #include "depth_fusion/model_view/model_view_renderer.h"
 #include "ros/output/model_picture_parameters.h"
@@ -10,15 +10,18 @@ namespace depth_fusion {
 
 class ModelPicture {
  public:
-  explicit ModelPicture(const ros::Publisher& publisher) : publisher_(publisher) {}
+  // Advertises model_view/image, model_view/depth and model_view/camera_info.
+  explicit ModelPicture(ros::NodeHandle& handle);
 
-  bool hasViewers() const { return publisher_.getNumSubscribers() > 0; }
-  // Publishes a picture of the last view, if somebody looks and the rate allows.
+  bool hasViewers() const;
+  // Publishes the last view as a picture and as depth in metres (NaN: no surface) with the camera_info of
+  // both, as far as somebody looks and the rate allows. `header` is that of the frame whose pose the view
+  // has.
   void publish(const std_msgs::Header& header, ModelViewRenderer& renderer,
                const ModelPictureParameters& parameters, StageTimers& timers);
 
  private:
-  ros::Publisher publisher_;
+  ros::Publisher picture_publisher_, depth_publisher_, info_publisher_;
   ros::WallTime last_;
 };
 

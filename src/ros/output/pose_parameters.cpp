@@ -10,6 +10,8 @@ ParameterTable PoseParameters::table() {
             "child of map_frame on tf, where the robot has odometry; empty: base_frame, or the root of the "
             "camera's tree"),
        text("base_frame", &base_frame, "child of map_frame on tf, where the robot has no odometry"),
+       text("view_frame", &view_frame,
+            "a frame on tf that follows the camera and stays level, for the view of rviz; empty: none"),
        flag("level_start", &level_start,
             "true: a camera without a tf tree starts looking along x with z up; false: the map is the first "
             "optical frame"),

@@ -17,7 +17,9 @@ constexpr size_t kMaxPath = 5000;
 
 PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_handle,
                              const PoseParameters& parameters)
-    : map_frame_(parameters.map_frame), transforms_(handle, parameters) {
+    : map_frame_(parameters.map_frame),
+      transforms_(handle, parameters),
+      viewer_aids_(private_handle, parameters.map_frame, parameters.view_frame) {
   pose_publisher_ = private_handle.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
   path_publisher_ = private_handle.advertise<nav_msgs::Path>(
       "path", 1, [this](const ros::SingleSubscriberPublisher& viewer) {
@@ -29,6 +31,7 @@ PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_han
 void PosePublisher::publish(const std_msgs::Header& camera, const Pose& T_map_camera,
                             const Matrix6d& covariance) {
   transforms_.take(camera, T_map_camera);
+  viewer_aids_.showTracked(camera.stamp, T_map_camera);
   const std_msgs::Header header = makeHeader(camera.stamp, map_frame_);
   auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
   pose->header = header;

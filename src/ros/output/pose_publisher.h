@@ -10,6 +10,7 @@
 
 #include "ros/output/pose_parameters.h"
 #include "ros/output/transform_sender.h"
+#include "ros/output/viewer_aids.h"
 
 namespace depth_fusion {
 
@@ -21,6 +22,8 @@ class PosePublisher {
   // As TransformSender has it.
   Pose startPose(const std_msgs::Header& camera) { return transforms_.startPose(camera); }
   void publish(const std_msgs::Header& camera, const Pose& T_map_camera, const Matrix6d& covariance);
+  // Shows that text where the camera was last, until the next pose.
+  void showSign(const std::string& text) { viewer_aids_.showSign(text); }
   // Forgets the path and the last pose, which belong to another map.
   void reset();
   // What is wrong with the robot's odometry or tree on tf; empty if nothing is. From any thread.
@@ -32,6 +35,7 @@ class PosePublisher {
 
   const std::string map_frame_;
   TransformSender transforms_;
+  ViewerAids viewer_aids_;
   std::mutex path_mutex_;  // of the path, which late viewers get whole
   nav_msgs::Path path_;
   Pose T_map_last_ = Pose::Identity();              // of the path

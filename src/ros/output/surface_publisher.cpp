@@ -7,6 +7,9 @@
 namespace depth_fusion {
 namespace {
 
+// A viewer that does not keep up costs so many messages of memory, and has the surface of later ones.
+constexpr uint32_t kQueue = 2;
+
 // Whether a period is over; if so, the next one begins.
 bool isDue(ros::WallTime& last, double rate_hz) {
   const ros::WallTime now = ros::WallTime::now();
@@ -20,9 +23,10 @@ bool isDue(ros::WallTime& last, double rate_hz) {
 SurfacePublisher::SurfacePublisher(ros::NodeHandle& handle) {
   // roscpp tells of a process's first subscriber to a topic; further ones have to wait for refresh_chunks.
   const auto note_viewer = [this](const ros::SingleSubscriberPublisher&) { has_late_viewer_ = true; };
-  marker_publisher_ = handle.advertise<visualization_msgs::MarkerArray>("markers", 20, note_viewer);
+  marker_publisher_ = handle.advertise<visualization_msgs::MarkerArray>("markers", kQueue, note_viewer);
   point_publisher_ = handle.advertise<sensor_msgs::PointCloud2>("points", 1, note_viewer);
-  block_publisher_ = handle.advertise<visualization_msgs::Marker>("blocks", 1);
+  block_publisher_ = handle.advertise<visualization_msgs::Marker>(
+      "blocks", 1, [this](const ros::SingleSubscriberPublisher&) { has_late_block_viewer_ = true; });
 }
 
 void SurfacePublisher::update(const std::shared_ptr<SharedMap>& map, const LiveSurfaceParameters& live,
@@ -34,12 +38,13 @@ void SurfacePublisher::update(const std::shared_ptr<SharedMap>& map, const LiveS
       const StageTimers::Scope timer(timers, "surface_mesh/update");
       updateSurface(map, live, mesh);
     }
-    if (pointViewers() > 0 && isDue(last_points_, points_rate_hz)) {
+    if (pointViewers() > 0 && budget_.left() > 0.0 && isDue(last_points_, points_rate_hz)) {
       const StageTimers::Scope timer(timers, "surface_mesh/points");
       publishPoints(map->frame_id);
     }
   }
-  if (map != nullptr && block_publisher_.getNumSubscribers() > 0 && isDue(last_blocks_, points_rate_hz))
+  if (map != nullptr && block_publisher_.getNumSubscribers() > 0 && isDue(last_blocks_, points_rate_hz) &&
+      blocksChanged(*map))
     publishBlocks(*map);
 }
 
@@ -48,16 +53,28 @@ void SurfacePublisher::updateSurface(const std::shared_ptr<SharedMap>& map, cons
   if (surface_ == nullptr || !surface_->follows(map))
     surface_ = std::make_unique<LiveSurface>(map, live, mesh);
   if (has_late_viewer_.exchange(false)) surface_->showAll();
+  budget_.refill(1e6 * live.max_bandwidth_mb_s, ros::WallTime::now());
   const visualization_msgs::MarkerArrayPtr markers =
-      surface_->update(markerViewers() > 0, pointViewers() > 0);
+      surface_->update(markerViewers() > 0, pointViewers() > 0, budget_);
   if (!markers->markers.empty()) marker_publisher_.publish(markers);
 }
 
 void SurfacePublisher::publishPoints(const std::string& frame_id) {
+  if (!surface_->pointsChanged()) return;
   std_msgs::Header header;
   header.stamp = ros::Time::now();
   header.frame_id = frame_id;
-  point_publisher_.publish(surface_->points(header));
+  const sensor_msgs::PointCloud2Ptr points = surface_->points(header);
+  budget_.spend(points->data.size());
+  point_publisher_.publish(points);
+}
+
+bool SurfacePublisher::blocksChanged(SharedMap& map) {
+  const auto blocks = map.locked([](FusedMap& fused) {
+    return std::pair<uint32_t, size_t>(fused.map().generation(), fused.map().slots().used());
+  });
+  const bool is_late = has_late_block_viewer_.exchange(false);
+  return std::exchange(blocks_, blocks) != blocks || is_late;
 }
 
 void SurfacePublisher::publishBlocks(SharedMap& map) {

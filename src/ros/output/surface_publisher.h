@@ -4,7 +4,9 @@
 #include <ros/node_handle.h>
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "ros/output/live_surface.h"
 
@@ -30,10 +32,15 @@ class SurfacePublisher {
                      const SurfaceMeshParameters& mesh);
   void publishPoints(const std::string& frame_id);
   void publishBlocks(SharedMap& map);
+  // Whether they are others than at the last call, or somebody sees them for the first time.
+  bool blocksChanged(SharedMap& map);
 
-  std::atomic<bool> has_late_viewer_{false};  // the publishers' callbacks set it
+  std::atomic<bool> has_late_viewer_{false},
+      has_late_block_viewer_{false};          // the publishers' callbacks set them
+  std::pair<uint32_t, size_t> blocks_{0, 0};  // generation and number of those shown
   ros::Publisher marker_publisher_, point_publisher_, block_publisher_;
   std::unique_ptr<LiveSurface> surface_;  // while somebody looks
+  ByteBudget budget_;
   ros::WallTime last_points_, last_blocks_;
 };
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/make_shared.hpp>
+
 namespace depth_fusion {
 namespace {
 
@@ -13,9 +15,10 @@ const ros::WallTime kNow(1000.0);
 class RgbdPairingTest : public testing::Test {
  protected:
   void addDepth(double stamp_s) {
-    auto frame = std::make_shared<SensorFrame>();
-    frame->header.stamp = ros::Time(stamp_s);
-    pairing_.addDepth(frame, kNow);
+    auto messages = std::make_shared<RgbdMessages>();
+    messages->header.stamp = ros::Time(stamp_s);
+    messages->received = kNow;
+    pairing_.addDepth(messages);
   }
   void addColor(double stamp_s) {
     auto image = boost::make_shared<sensor_msgs::Image>();
@@ -28,9 +31,9 @@ class RgbdPairingTest : public testing::Test {
   // Takes the first out, and checks that it is that depth with that colour; 0 stands for none.
   void expectPair(double depth_s, double color_s) {
     ASSERT_NE(pairing_.first(), nullptr);
-    const RgbdPairing::Pair pair = pairing_.takeFirst();
-    EXPECT_EQ(pair.frame->header.stamp, ros::Time(depth_s));
-    EXPECT_EQ(pair.color.empty() ? ros::Time() : pair.color.header().stamp, ros::Time(color_s));
+    const RgbdMessagesPtr pair = pairing_.takeFirst();
+    EXPECT_EQ(pair->header.stamp, ros::Time(depth_s));
+    EXPECT_EQ(pair->color.empty() ? ros::Time() : pair->color.header().stamp, ros::Time(color_s));
   }
 
   RgbdPairing pairing_{PairingParameters{kMaxGap_s, kMaxWait_s}};
