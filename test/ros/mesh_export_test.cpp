@@ -1,4 +1,6 @@
 // The service export_mesh.
+#include "ros/output/mesh_export.h"
+
 #include <depth_fusion/ExportMesh.h>
 #include <stdlib.h>
 
@@ -149,6 +151,13 @@ TEST_F(MeshExport, answersWhileDataFlows) {
   user.join();
   EXPECT_GT(fused_meanwhile, 0u);
   for (const auto& status : map_status.all()) EXPECT_TRUE(status->fused) << status->reason;
+}
+
+TEST(PathsOfMeshes, MayHaveTheHomeVariablesAndBlanks) {
+  setenv("DEPTH_FUSION_FOLDER", "/data", 1);
+  EXPECT_EQ(absolutePath("$DEPTH_FUSION_FOLDER/my room's mesh (1).ply"), "/data/my room's mesh (1).ply");
+  EXPECT_EQ(absolutePath("~/room.ply"), std::string(std::getenv("HOME")) + "/room.ply");
+  EXPECT_THROW(absolutePath("$DEPTH_FUSION_NONE_SUCH/room.ply"), Error);
 }
 
 }  // namespace

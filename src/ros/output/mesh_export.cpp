@@ -3,7 +3,9 @@
 #include <wordexp.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include "depth_fusion/common/error.h"
@@ -55,13 +57,16 @@ fs::path rosHome() {
 // As a shell does it: ~ and environment variables. Throws Error for what no shell would take.
 std::string expanded(const std::string& path) {
   wordexp_t words;
-  std::string quoted;  // blanks are part of the name
-  for (const char c : path)
-    quoted += (c == ' ' || c == '&' || c == '(' || c == ')' ? "\\" : "") + std::string(1, c);
+  std::string quoted;  // whatever else a shell takes for more than a sign
+  for (const char c : path) {
+    const bool is_plain =
+        std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("_$~{}/.-", c) != nullptr;
+    quoted += is_plain ? std::string(1, c) : std::string("\\") + c;
+  }
   const bool is_good = wordexp(quoted.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF) == 0;
   const std::string result = is_good && words.we_wordc == 1 ? words.we_wordv[0] : "";
   if (is_good) wordfree(&words);
-  check(!result.empty(), "the path " + path + " has a variable that is not set, or signs that no path has");
+  check(!result.empty(), "the path " + path + " has a variable that is not set");
   return result;
 }
 
