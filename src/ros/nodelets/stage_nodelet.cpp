@@ -14,6 +14,7 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kReportPeriod_s = 1.0;
 constexpr int kSilentReports = 3;       // without a frame, before that is a problem
+constexpr int kStillReports = 10;       // of ROS time, before that is one: a replay may still be starting
 constexpr uint64_t kFewestTooSlow = 5;  // one frame of so many may be skipped without a warning
 
 uint64_t droppedFor(const FrameAccount& account, const std::string& reason) {
@@ -106,7 +107,7 @@ void StageNodelet::checkClock() {
   const ros::Time now = ros::Time::now();
   still_reports_ = now == std::exchange(last_time_, now) ? still_reports_ + 1 : 0;
   if (still_reports_ == 0) clock_problem_.clear();
-  if (still_reports_ < kSilentReports || !clock_problem_.empty()) return;
+  if (still_reports_ < kStillReports || !clock_problem_.empty()) return;
   if (!ros::Time::isSimTime() || PublishedTopics().contains("/clock")) return;
   clock_problem_ =
       "use_sim_time is set, but nobody publishes /clock, so that time stands still; rosparam set "
