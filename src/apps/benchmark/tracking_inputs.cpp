@@ -72,6 +72,7 @@ std::vector<TrackingInput> recordedInputs(const TrackingBenchmark& options) {
     const std::string folder = data + "/" + known.name;
     if (std::filesystem::exists(folder)) {
       inputs.push_back(recorded(known.name, folder, known.params, known.camera));
+      inputs.back().truth_is_estimate = known.name == "redkitchen";
     } else {
       std::cout << "there is no " << folder << "; see --data" << std::endl;
     }

@@ -12,6 +12,7 @@ struct TrackingInput {
   std::string name;
   OpenRecording open;
   Trajectory truth;
+  bool truth_is_estimate = false;  // of another tracker
   PipelineParameters parameters;
 };
 
