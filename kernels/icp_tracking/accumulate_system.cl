@@ -44,15 +44,17 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
 
     const vint match = select((vint)(0), pixel_indices(u, v, model), inlier);
     const vfloat qz = GATHER(vfloat, model_depth, match);
+    const vuint model_normal = GATHER(vuint, model_normals, match);
     const Normals s = unpack_normals(source_normal);
-    const Normals n = unpack_normals(GATHER(vuint, model_normals, match));
+    const Normals n = unpack_normals(model_normal);
     const vfloat dx = px - (TO_VFLOAT(u) - model.cx) / model.fx * qz;
     const vfloat dy = py - (TO_VFLOAT(v) - model.cy) / model.fy * qz;
     const vfloat dz = pz - qz;
     const vfloat cosine = n.x * rotated(T_M_D, 0, s.x, s.y, s.z) + n.y * rotated(T_M_D, 1, s.x, s.y, s.z) +
                           n.z * rotated(T_M_D, 2, s.x, s.y, s.z);
-    inlier = inlier & (qz > 0.0f) &
-             (dx * dx + dy * dy + dz * dz < args.max_distance_m * args.max_distance_m) &
+    inlier = inlier & (qz > 0.0f) & (model_normal != 0);
+    sums[31] += select((vfloat)(0.0f), (vfloat)(1.0f), inlier);
+    inlier = inlier & (dx * dx + dy * dy + dz * dz < args.max_distance_m * args.max_distance_m) &
              (cosine > args.min_normal_cosine);
     if (!ANY(inlier)) continue;
 

@@ -24,7 +24,8 @@ IcpSystem sumRows(const std::vector<float>& partial_sums, int row_step) {
   system.squared_residuals = sums[next++];
   system.inliers = sums[next++];
   system.source_points = sums[next++];
-  system.fit = sums[next];
+  system.fit = sums[next++];
+  system.covered_points = sums[next];
   return system;
 }
 

@@ -14,7 +14,8 @@ struct IcpSystem {
   double squared_residuals = 0.0;  // weighted
   double inliers = 0.0;
   double source_points = 0.0;
-  double fit = 0.0;  // sum over the inliers of 1 - (r / (ICP_FIT_SIGMAS sigma))^2, each at least 0
+  double fit = 0.0;             // sum over the inliers of 1 - (r / (ICP_FIT_SIGMAS sigma))^2, each at least 0
+  double covered_points = 0.0;  // source points that are seen where the model has a surface
   // normals have unit length, so that the trace of the translation block is the sum of the weights
   double weights() const { return hessian.bottomRightCorner<3, 3>().trace(); }
   double rmse() const;  // metres, weighted

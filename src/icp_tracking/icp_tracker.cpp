@@ -23,8 +23,9 @@ struct IcpTracker::Alignment {
   Pose T_M_D;
   IcpSystem system;  // of the last iteration, as the members below
   Matrix6d covariance = Matrix6d::Identity();
-  double prior_sigmas = 0.0;  // how far geometry alone is from the prior
-  std::string free_directions;
+  double prior_sigmas = 0.0;    // how far geometry alone is from the prior
+  std::string free_directions;  // those that geometry says weakly among them
+  bool is_determined = true;    // by geometry alone, weakly at least
   double smallest_eigenvalue = 0.0;
   int iterations = 0;
 };
@@ -52,7 +53,7 @@ std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker:
   } else if (T_prior_D.translation().norm() > parameters.max_translation_m ||
              rotationAngle(T_prior_D) > parameters.max_rotation_rad) {
     reason << "jump of " << T_prior_D.translation().norm() << " m, " << rotationAngle(T_prior_D) << " rad";
-  } else if (!alignment.free_directions.empty() && !prior.information) {
+  } else if (!alignment.is_determined && !prior.information) {
     reason << "the geometry seen leaves free " << alignment.free_directions << ", and no texture helps";
   }
   return reason.str();
@@ -168,6 +169,8 @@ MatchGates IcpTracker::gatesAt(int level) const {
 
 bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView& view,
                             const SystemPrior& prior, const Eigen::AlignedBox3d& box, Alignment& alignment) {
+  // What geometry says weakly is worth more than no measurement.
+  const double threshold = parameters_.degeneracy_threshold * (prior.information ? 1.0 : 0.1);
   const int iterations[] = {parameters_.fine_iterations, parameters_.middle_iterations,
                             parameters_.coarse_iterations};
   const MatchGates gates = gatesAt(level);
@@ -177,7 +180,7 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
         kernels_->accumulateSystem(frame.levels[level], view, alignment.T_M_D, gates, partial_sums_);
     ++alignment.iterations;
     if (alignment.system.inliers < 6.0) return false;
-    const DegeneracyAnalysis analysis(alignment.system, box, parameters_.degeneracy_threshold);
+    const DegeneracyAnalysis analysis(alignment.system, box, threshold);
     const Solution solution = solve(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
     const Vector6d step = limited(solution.twist, gates, box);
     alignment.T_M_D = poseFromTwist(step) * alignment.T_M_D;
@@ -185,7 +188,9 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
     const bool converged = step.head<3>().norm() < coarseness * parameters_.convergence_rad &&
                            step.tail<3>().norm() < coarseness * parameters_.convergence_m;
     if (!converged && i + 1 < iterations[level]) continue;
-    alignment.free_directions = analysis.freeDirectionNames();
+    alignment.is_determined = analysis.freeDirections() == 0;
+    alignment.free_directions =
+        DegeneracyAnalysis(alignment.system, box, parameters_.degeneracy_threshold).freeDirectionNames();
     alignment.smallest_eigenvalue = analysis.smallestEigenvalue();
     alignment.prior_sigmas =
         distanceFromPrior(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
@@ -230,7 +235,9 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
   result.inliers = static_cast<int>(alignment.system.inliers);
   const double points = alignment.system.source_points;
   result.inlier_fraction = points > 0.0 ? alignment.system.inliers / points : 0.0;
-  result.explained = points > 0.0 ? alignment.system.fit / points : 0.0;
+  const double covered = alignment.system.covered_points;
+  result.explained = covered > 0.0 ? alignment.system.fit / covered : 0.0;
+  result.match_quality = result.inliers > 0 ? alignment.system.fit / alignment.system.inliers : 0.0;
   result.prior = prior.origin;
   result.prior_sigmas = alignment.prior_sigmas;
   result.rmse_m = alignment.system.rmse();

@@ -12,10 +12,12 @@ constexpr double kShortMemory_frames = 5.0;  // of how much is usually explained
 constexpr double kLessExplained = 0.9;       // than usual, from which on other starts are tried
 constexpr double kHardlyExplained = 0.7;     // of what is usual, from which on all around is searched
 constexpr double kUnexplained = 0.5;         // of what is usual, from which on the frame is lost
-constexpr double kLeastExplained = 0.3;      // of a frame by a map of few frames, else it is lost
-constexpr double kWorseMatches = 0.85;       // than usual, from which on the frame is lost
-constexpr double kDisagreement = 4.0;        // between prior and depth, in standard deviations
+constexpr double kWellExplained = 0.7;   // of a frame by a map of few frames, so that nothing else is tried
+constexpr double kLeastExplained = 0.3;  // of a frame by a map of few frames, else it is lost
+constexpr double kWorseMatches = 0.85;   // than usual, from which on the frame is lost
+constexpr double kDisagreement = 4.0;    // between prior and depth, in standard deviations
 // A hypothesis wins over those before it if it explains more by so much.
+constexpr double kComparableInliers = 0.95;
 constexpr double kClearlyMore = 1.03;
 
 // What is searched around a pose, in steps about as long as ICP's way to a match.
@@ -39,8 +41,11 @@ std::vector<Pose> around(const Pose& T_W_D) {
 
 bool isLost(const TrackingResult& result) { return result.status == TrackingStatus::kLost; }
 
+// Of points where the map has a surface, so that a sensor that moved on to new surface is not held back. A
+// pose whose points hardly meet the map says nothing.
 bool explainsMore(const TrackingResult& a, const TrackingResult& b) {
   if (isLost(a) || isLost(b)) return !isLost(a);
+  if (a.inliers < kComparableInliers * b.inliers) return false;
   return a.explained > kClearlyMore * b.explained;
 }
 
@@ -56,8 +61,8 @@ TrackingResult HypothesisTracker::track(const DepthFrame& frame, const ModelView
     TrackingResult result = tracker_.track(frame, view, other, timers);
     if (explainsMore(result, best)) best = std::move(result);
   }
-  if (!fitsAsUsual(best) || best.explained < kHardlyExplained * usual_.explained ||
-      usual_.frames < kFewFrames) {
+  const double little = usual_.frames < kFewFrames ? kWellExplained : kHardlyExplained * usual_.explained;
+  if (!fitsAsUsual(best) || best.explained < little) {
     for (const MotionPrior& other : others) {
       TrackingResult result = search(frame, view, other, timers);
       if (explainsMore(result, best)) best = std::move(result);
@@ -68,7 +73,7 @@ TrackingResult HypothesisTracker::track(const DepthFrame& frame, const ModelView
     best.prior_sigmas = first.prior_sigmas;
   }
   const double needed = usual_.frames < kFewFrames ? kLeastExplained : kUnexplained * usual_.explained;
-  return best.explained < needed ? lost(std::move(best)) : orLost(std::move(best));
+  return isLost(best) || best.explained >= needed ? orLost(std::move(best)) : lost(std::move(best));
 }
 
 TrackingResult HypothesisTracker::search(const DepthFrame& frame, const ModelView& view,
@@ -84,16 +89,17 @@ void HypothesisTracker::accept(const TrackingResult& result) {
     mean += std::max(1.0 / usual_.frames, 1.0 / memory_frames) * (value - mean);
   };
   average(usual_.explained, result.explained, kShortMemory_frames);
-  average(usual_.match_quality, result.matchQuality(), kMemory_frames);
+  average(usual_.match_quality, result.match_quality, kMemory_frames);
 }
 
 bool HypothesisTracker::isConvincing(const TrackingResult& result) const {
-  return !isLost(result) && usual_.frames >= kFewFrames && result.prior_sigmas < kDisagreement &&
-         result.explained >= kLessExplained * usual_.explained && fitsAsUsual(result);
+  const double enough = usual_.frames < kFewFrames ? kWellExplained : kLessExplained * usual_.explained;
+  return !isLost(result) && result.prior_sigmas < kDisagreement && result.explained >= enough &&
+         fitsAsUsual(result);
 }
 
 bool HypothesisTracker::fitsAsUsual(const TrackingResult& result) const {
-  return !isLost(result) && result.matchQuality() >= kWorseMatches * usual_.match_quality;
+  return !isLost(result) && result.match_quality >= kWorseMatches * usual_.match_quality;
 }
 
 TrackingResult HypothesisTracker::orLost(TrackingResult result) const {
@@ -106,7 +112,7 @@ TrackingResult HypothesisTracker::lost(TrackingResult result) const {
       reason, sizeof(reason),
       "the best pose found may be a wrong one: the map explains %.0f %% of the points, where %.0f %% is "
       "usual, and fits those that match by %.2f, where %.2f is usual",
-      100.0 * result.explained, 100.0 * usual_.explained, result.matchQuality(), usual_.match_quality);
+      100.0 * result.explained, 100.0 * usual_.explained, result.match_quality, usual_.match_quality);
   result.status = TrackingStatus::kLost;
   result.reason = reason;
   return result;

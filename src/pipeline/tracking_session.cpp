@@ -20,6 +20,7 @@ TrackingSession::TrackingSession(ComputeContext& compute, const PipelineParamete
 void TrackingSession::setParameters(const PipelineParameters& parameters) {
   preprocessor_.setParameters(parameters.preprocessing, parameters.depth_sensor);
   tracker_.setParameters(parameters.icp_tracking);
+  tracker_.reset();  // what is usual was so by the parameters before
   relocaliser_.setParameters(parameters.relocalisation);
   matcher_.setParameters(parameters.texture_odometry, parameters.depth_sensor);
   parameters_ = parameters;
@@ -118,11 +119,12 @@ TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const Frame
     if (result.status != TrackingStatus::kLost) return result;
   }
   if (motion_.isTracking()) return lost;
-  for (const MotionPrior& start : motion_.otherStarts()) {
-    TrackingResult result = orStillLost(tracker_.search(*depth_, render_(start.T_W_D), start, timers));
-    if (result.status != TrackingStatus::kLost) return result;
-  }
-  return trackFrom(prior, timers);
+  TrackingResult result = trackFrom(prior, timers);
+  std::vector<MotionPrior> starts = motion_.otherStarts();
+  starts.push_back(prior);
+  for (size_t i = 0; i < starts.size() && result.status == TrackingStatus::kLost; ++i)
+    result = orStillLost(tracker_.search(*depth_, render_(starts[i].T_W_D), starts[i], timers));
+  return result;
 }
 
 TrackingResult TrackingSession::trackFrom(const MotionPrior& prior, StageTimers& timers) {

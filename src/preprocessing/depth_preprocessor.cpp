@@ -32,6 +32,11 @@ PreprocessingParameters limited(PreprocessingParameters parameters, const DepthS
   return parameters;
 }
 
+bool sameNoise(const DepthSensorParameters& a, const DepthSensorParameters& b) {
+  return a.sigma_base_m == b.sigma_base_m && a.sigma_growth_per_m == b.sigma_growth_per_m &&
+         a.sigma_from_m == b.sigma_from_m;
+}
+
 const CameraIntrinsics& checked(const CameraIntrinsics& camera) {
   check(camera.valid(),
         "the depth camera's intrinsics are not valid; give them with --intrinsics fx,fy,cx,cy");
@@ -78,8 +83,8 @@ void DepthPreprocessor::setParameters(const PreprocessingParameters& parameters,
                                       const DepthSensorParameters& sensor) {
   const bool new_offsets = parameters.depth_offsets_per_m != parameters_.depth_offsets_per_m;
   parameters_ = limited(parameters, sensor);
+  if (!sameNoise(sensor, sensor_)) noise_.reset();
   sensor_ = sensor;
-  noise_.reset();
   if (new_offsets) uploadOffsets();
 }
 
@@ -94,7 +99,7 @@ const DepthFrame& DepthPreprocessor::process(const RgbdFrame& frame, const Vecto
         "a depth image is " + sizeText(frame.depth.cols, frame.depth.rows) + ", the intrinsics are for " +
             sizeText(camera.width, camera.height));
   if (!noise_) noise_ = raisedToNoise(frame, {parameters_.min_range_m, parameters_.max_range_m}, sensor_);
-  for (DepthLevel& level : result.levels) level.sensor = *noise_;
+  for (DepthLevel& level : result.levels) level.sensor = noise_.value_or(sensor_);
   const cv::Mat depth = frame.depth.isContinuous() ? frame.depth : frame.depth.clone();
   input_.write(depth.data, depth.total() * depth.elemSize());
 

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <vector>
 
@@ -76,13 +77,13 @@ DepthSensorParameters fitted(const std::vector<Sample>& sigmas, const DepthSenso
 
 }  // namespace
 
-DepthSensorParameters raisedToNoise(const RgbdFrame& frame, const DepthRange& range,
-                                    const DepthSensorParameters& model) {
+std::optional<DepthSensorParameters> raisedToNoise(const RgbdFrame& frame, const DepthRange& range,
+                                                   const DepthSensorParameters& model) {
   std::vector<Sample> samples;
   frame.depth.type() == CV_16UC1 ? addSamples<uint16_t>(frame, range, samples)
                                  : addSamples<float>(frame, range, samples);
   const size_t bin_samples = samples.size() / kBins;
-  if (bin_samples < kMinBinSamples) return model;
+  if (bin_samples < kMinBinSamples) return std::nullopt;
   std::sort(samples.begin(), samples.end(),
             [](const Sample& a, const Sample& b) { return a.depth_m < b.depth_m; });
   std::vector<Sample> sigmas;

@@ -25,7 +25,8 @@ std::optional<double> parseStamp(const std::string& text) {
 // Names may stand in quotes, hold blanks, and have the separators of Windows.
 std::string pathOf(const std::string& name, const std::filesystem::path& folder) {
   std::string path = (folder / trimmed(name, " \t,;\"'")).string();
-  if (!std::filesystem::exists(path)) std::replace(path.begin(), path.end(), '\\', '/');
+  std::error_code none;  // a name that no file can have is no file's
+  if (!std::filesystem::exists(path, none)) std::replace(path.begin(), path.end(), '\\', '/');
   return path;
 }
 

@@ -67,6 +67,7 @@ class IcpReference {
     const int x = static_cast<int>(u);
     const int y = static_cast<int>(v);
     if (!model_.has(x, y)) return;
+    ++system_.covered_points;
     const Eigen::Vector3d q = model_.point(x, y);
     const Eigen::Vector3d n = model_.normal(x, y);
     if ((p - q).norm() >= max_distance_m_ || n.dot(T_M_D_.linear() * normal_D) <= min_normal_cosine_) return;

@@ -9,7 +9,8 @@ namespace depth_fusion {
 
 enum class TrackingStatus {
   kTracking,
-  kDegenerate,  // geometry leaves directions free; the pose has them from the prior
+  kDegenerate,  // geometry leaves directions free, or says them weakly; the pose has them from a measured
+                // prior, if there is one
   kLost
 };
 
@@ -25,15 +26,14 @@ struct TrackingResult {
   std::string dropped_prior;  // the origin of a measured prior that depth contradicts; prior_sigmas is its
   int inliers = 0;
   double inlier_fraction = 0.0;  // of the frame's points with depth and normal
-  // How much of the frame the map explains: the mean over its points with depth and normal of 1 - (r / (3
-  // sigma))^2, r the point-to-plane distance; 0 where that is negative or where no surface is near.
+  // How much of the frame the map explains: the mean, over the points that are seen where the map has a
+  // surface, of 1 - (r / (3 sigma))^2, r the point-to-plane distance; 0 where that is negative or where the
+  // match is rejected.
   double explained = 0.0;
-  double rmse_m = 0.0;  // of the inliers' point-to-plane distances, weighted by the sensor's accuracy
+  double match_quality = 0.0;  // the same mean over the inliers alone
+  double rmse_m = 0.0;         // of the inliers' point-to-plane distances, weighted by the sensor's accuracy
   double smallest_eigenvalue = 0.0;  // of the system in the unit cube, divided by the matches' weights
   int iterations = 0;
-
-  // The same as `explained` over the inliers alone.
-  double matchQuality() const { return inlier_fraction > 0.0 ? explained / inlier_fraction : 0.0; }
 };
 
 }  // namespace depth_fusion

@@ -70,7 +70,7 @@ class StartJudge {
       error = errorBetween(*first_, pair);
       step = errorBetween(*last_, pair);
       last_ = pair;
-      note(stamp_s, error, step);
+      if (tracking.status == TrackingStatus::kTracking) note(stamp_s, error, step);
     }
     write(stamp_s, tracking, error, step);
   }

@@ -27,7 +27,8 @@ struct Variant {
 // A prior without weight is where ICP starts, and no more.
 const std::vector<Variant> kAblation = {
     {"ICP", {{"texture_odometry/enabled", "false"}, {"icp_tracking/degeneracy_threshold", "0"}}},
-    {"ICP + texture", {{"texture_odometry/shared_error", "1000"}, {"icp_tracking/degeneracy_threshold", "0"}}},
+    {"ICP + texture",
+     {{"texture_odometry/shared_error", "1000"}, {"icp_tracking/degeneracy_threshold", "0"}}},
     {"ICP + texture + eigenvalues", {}}};
 
 const std::vector<Variant> kGates = {

@@ -212,8 +212,9 @@ void Run::noteProblems(const RgbdFrame& frame) {
 }
 
 void Run::noteNoise() const {
-  const std::string remark =
-      noiseRemark(options_.parameters.depth_sensor, pipeline_->depth()->levels[0].sensor);
+  const std::shared_ptr<const DepthFrame> depth = pipeline_->depth();
+  if (depth == nullptr) return;
+  const std::string remark = noiseRemark(options_.parameters.depth_sensor, depth->levels[0].sensor);
   if (!remark.empty()) say(remark);
 }
 

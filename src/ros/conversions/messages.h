@@ -15,6 +15,10 @@
 
 namespace depth_fusion {
 
+// The time between any two stamps, in seconds. ros::Time's own difference throws where they are 68 years
+// apart, which the stamp of a faulty driver may be.
+inline double secondsBetween(const ros::Time& from, const ros::Time& to) { return to.toSec() - from.toSec(); }
+
 // Throws Error for a stamp that ROS has no time for. 0, which means "no time" in ROS, becomes the smallest
 // time.
 ros::Time toRosTime(double stamp_s);

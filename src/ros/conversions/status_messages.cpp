@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ros/conversions/messages.h"
+
 namespace depth_fusion {
 
 using diagnostic_msgs::DiagnosticStatus;
@@ -35,7 +37,7 @@ TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingRe
   status.dropped_prior = result.dropped_prior;
   status.prior_sigmas = result.prior_sigmas;
   status.explained = result.explained;
-  status.latency_s = (ros::Time::now() - header.stamp).toSec();
+  status.latency_s = secondsBetween(header.stamp, ros::Time::now());
   return status;
 }
 

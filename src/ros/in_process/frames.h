@@ -60,7 +60,7 @@ struct MapReset {
   bool isAfter(const SensorFrame& frame) const {
     constexpr double kOnTheirWay_s = 1.0, kSameClock_s = 10.0;
     if (frame.received < called) return true;
-    const double later_s = (frame.header.stamp - stamp).toSec();
+    const double later_s = frame.header.stamp.toSec() - stamp.toSec();
     return (frame.received - called).toSec() < kOnTheirWay_s && later_s <= 0.0 && later_s > -kSameClock_s;
   }
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/nearest.h"
+#include "ros/conversions/messages.h"
 
 namespace depth_fusion {
 namespace {
@@ -24,7 +25,10 @@ bool RgbdPairing::firstIsComplete(const ros::WallTime& now, bool color_comes) co
   if (!color_comes && colors_.empty()) return true;
   const ros::Time& stamp = first()->header.stamp;
   return std::any_of(colors_.begin(), colors_.end(),
-                     [&](const Color& color) { return color.stamp >= stamp; }) ||
+                     [&](const Color& color) {
+                       const double later_s = secondsBetween(stamp, color.stamp);
+                       return later_s >= 0.0 && later_s < kFuture_s;
+                     }) ||
          waited_s(now) > parameters_.max_wait_s;
 }
 
@@ -32,7 +36,7 @@ RgbdMessagesPtr RgbdPairing::takeFirst() {
   const std::shared_ptr<RgbdMessages> taken = waiting_.front();
   waiting_.pop_front();
   const Color* color = nearest(colors_, parameters_.max_gap_s, [&](const Color& candidate) {
-    return std::abs((candidate.stamp - taken->header.stamp).toSec());
+    return std::abs(secondsBetween(taken->header.stamp, candidate.stamp));
   });
   if (color != nullptr) taken->color = color->image;
   return taken;
@@ -41,10 +45,10 @@ RgbdMessagesPtr RgbdPairing::takeFirst() {
 size_t RgbdPairing::restart(const ros::Time& stamp) {
   const size_t forgotten = waiting_.size();
   waiting_.clear();
-  const ros::Time future = stamp + ros::Duration(kFuture_s);
-  colors_.erase(std::remove_if(colors_.begin(), colors_.end(),
-                               [&](const Color& color) { return color.stamp > future; }),
-                colors_.end());
+  colors_.erase(
+      std::remove_if(colors_.begin(), colors_.end(),
+                     [&](const Color& color) { return secondsBetween(stamp, color.stamp) > kFuture_s; }),
+      colors_.end());
   return forgotten;
 }
 

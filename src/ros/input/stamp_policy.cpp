@@ -2,13 +2,16 @@
 
 #include <cmath>
 
+#include "ros/conversions/messages.h"
+
 namespace depth_fusion {
 namespace {
 
 // Stamps that go back by less are images out of order, by more perhaps a clock that was set back.
 constexpr double kClockJump_s = 1.0;
-// An image that is later by more than it came later is perhaps one of a wrong stamp.
-constexpr double kAhead_s = 2.0;
+// An image that is later by more than it came later is perhaps one of a wrong stamp. It is less than a jump,
+// so that one such image that is taken does not make those after it look like a clock that was set back.
+constexpr double kAhead_s = 0.9;
 constexpr int kMany = 5;  // images that agree are believed
 
 }  // namespace
@@ -31,10 +34,10 @@ StampPolicy::Verdict StampPolicy::judge(const ros::Time& stamp, const ros::Time&
 }
 
 StampPolicy::Verdict StampPolicy::judgeAfter(const Image& before, const Image& image) {
-  const double later_s = (image.stamp - before.stamp).toSec();
-  const double came_later_s = (image.arrival - before.arrival).toSec();
+  const double later_s = secondsBetween(before.stamp, image.stamp);
+  const double came_later_s = secondsBetween(before.arrival, image.arrival);
   const bool is_back = later_s <= -kClockJump_s;
-  const bool is_ros_time = std::abs((image.stamp - image.arrival).toSec()) < kClockJump_s;
+  const bool is_ros_time = std::abs(secondsBetween(image.arrival, image.stamp)) < kClockJump_s;
   Verdict verdict;
   if (!is_back && (is_ros_time || later_s < came_later_s + kAhead_s)) {
     if (later_s <= 0.0) verdict.order = Order::kOutOfOrder;
@@ -60,8 +63,8 @@ ros::Time StampPolicy::usedStamp(const ros::Time& stamp, const ros::Time& arriva
 }
 
 bool StampPolicy::areMany(const Image& image) {
-  const double later_s = (image.stamp - doubtful_.last.stamp).toSec();
-  const double came_later_s = (image.arrival - doubtful_.last.arrival).toSec();
+  const double later_s = secondsBetween(doubtful_.last.stamp, image.stamp);
+  const double came_later_s = secondsBetween(doubtful_.last.arrival, image.arrival);
   const bool goes_on = doubtful_.in_a_row > 0 && later_s > 0.0 && later_s < came_later_s + kClockJump_s;
   doubtful_ = {image, goes_on ? doubtful_.in_a_row + 1 : 1};
   return doubtful_.in_a_row >= kMany;

@@ -81,10 +81,13 @@ void IcpTrackingNodelet::subscribe() {
         [this](const TexturedFrameMessage::ConstPtr& message) { worker_->push(message->payload); });
     return;
   }
-  sensor_subscriber_ = std::make_unique<RgbdSubscriber>(
-      getMTNodeHandle(), rgbd_, parameters_.device, counter_, [this](const RgbdMessagesPtr& messages) {
-        worker_->push(WaitingFrame([this, messages] { return decode(*messages); }));
-      });
+  // The worker's thread makes it, so that no frame is at work before it is there.
+  worker_->between([this] {
+    sensor_subscriber_ = std::make_unique<RgbdSubscriber>(
+        getMTNodeHandle(), rgbd_, parameters_.device, counter_, [this](const RgbdMessagesPtr& messages) {
+          worker_->push(WaitingFrame([this, messages] { return decode(*messages); }));
+        });
+  });
 }
 
 TexturedFramePtr IcpTrackingNodelet::decode(const RgbdMessages& messages) {

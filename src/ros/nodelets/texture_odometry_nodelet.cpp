@@ -64,9 +64,12 @@ void TextureOdometryNodelet::start() {
   worker_ = std::make_unique<Worker<RgbdMessagesPtr>>(
       queue_size_, [this](const RgbdMessagesPtr& messages) { process(messages); },
       [this](const RgbdMessagesPtr&) { counter_.drop(kTooSlow); });
-  subscriber_ =
-      std::make_unique<RgbdSubscriber>(getMTNodeHandle(), rgbd_, device_, counter_,
-                                       [this](const RgbdMessagesPtr& messages) { worker_->push(messages); });
+  // The worker's thread makes it, so that no frame is at work before it is there.
+  worker_->between([this] {
+    subscriber_ = std::make_unique<RgbdSubscriber>(
+        getMTNodeHandle(), rgbd_, device_, counter_,
+        [this](const RgbdMessagesPtr& messages) { worker_->push(messages); });
+  });
   startReporting();
 }
 

@@ -81,9 +81,12 @@ void TsdfFusionNodelet::advertise() {
 
 void TsdfFusionNodelet::subscribe() {
   if (parameters_.isExternal()) {
-    posed_subscriber_ = std::make_unique<PosedFrameSubscriber>(
-        getMTNodeHandle(), parameters_.rgbd, parameters_.device, parameters_.map_frame,
-        parameters_.tf_queue_size, counter_, [this](const WaitingFrame& frame) { worker_->push(frame); });
+    // The worker's thread makes it, so that no frame is at work before it is there.
+    worker_->between([this] {
+      posed_subscriber_ = std::make_unique<PosedFrameSubscriber>(
+          getMTNodeHandle(), parameters_.rgbd, parameters_.device, parameters_.map_frame,
+          parameters_.tf_queue_size, counter_, [this](const WaitingFrame& frame) { worker_->push(frame); });
+    });
   } else {
     frame_subscriber_ = subscribeInProcess<TrackedFrame>(
         "icp_tracking/frame", "icp_tracking", Carries::kFrames,

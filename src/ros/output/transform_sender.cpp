@@ -132,8 +132,8 @@ void TransformSender::send(const ros::Time& stamp, const Pose& T_map_root) {
 
 ros::Time TransformSender::cameraTime() const {
   const ros::Time now = ros::Time::now();
-  const ros::Duration lag = last_taken_ - last_->camera.stamp;
-  return std::abs(lag.toSec()) < kSameClock_s ? now : now - lag;
+  const double lag_s = secondsBetween(last_->camera.stamp, last_taken_);
+  return std::abs(lag_s) < kSameClock_s ? now : ros::Time(std::max(now.toSec() - lag_s, 0.0));
 }
 
 std::string TransformSender::problem() const {
@@ -143,7 +143,7 @@ std::string TransformSender::problem() const {
   if (!odometry_)
     return "tf does not connect " + way +
            ", so that no transform is sent; is odom_frame or base_frame right?";
-  const double age_s = (cameraTime() - odometry_->stamp).toSec();
+  const double age_s = secondsBetween(odometry_->stamp, cameraTime());
   if (age_s < kLateOdometry_s) return "";
   char text[32];
   std::snprintf(text, sizeof(text), "%.1f", age_s);

@@ -104,6 +104,7 @@ TEST(IcpSystem, EqualsTheReferenceWithNumericalJacobian) {
       EXPECT_GT(expected.inliers, 0.3 * expected.source_points);
       EXPECT_LT(expected.inliers, 0.99 * expected.source_points);
       EXPECT_NEAR(system.inliers / expected.inliers, 1.0, 1e-3);
+      EXPECT_NEAR(system.covered_points / expected.covered_points, 1.0, 1e-3);
       EXPECT_NEAR(system.rmse() / expected.rmse(), 1.0, 1e-3);
       EXPECT_NEAR(system.fit / expected.fit, 1.0, 1e-3);
       EXPECT_LT(largestRelativeDifference(system, expected), 1e-3);
