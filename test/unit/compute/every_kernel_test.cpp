@@ -116,7 +116,7 @@ TEST_F(EveryKernel, OfTrackingFusionColourAndViews) {
   ReconstructionPipeline pipeline(compute, smallParameters(), kCamera);
   for (int i = 0; i < 2; ++i) {
     const FrameResult result = pipeline.processFrame(roomFrame(i));
-    EXPECT_EQ(result.tracking.status, TrackingStatus::kTracking) << result.tracking.reason;
+    EXPECT_NE(result.tracking.status, TrackingStatus::kLost) << result.tracking.reason;
     EXPECT_TRUE(result.color.fused) << result.color.reason;
   }
   StageTimers timers;
