@@ -38,7 +38,9 @@ void addSamples(const RgbdFrame& frame, const DepthRange& range, std::vector<Sam
       if (!inRange(z)) continue;
       for (const auto& [dv, du] : {std::pair(0, kSpacing_px), std::pair(kSpacing_px, 0)}) {
         const double before = at(v - dv, u - du), after = at(v + dv, u + du);
-        if (inRange(before) && inRange(after)) samples.push_back({z, std::abs(before - 2.0 * z + after)});
+        if (!inRange(before) || !inRange(after)) continue;
+        // The mean's noise has nothing to do with the difference's, so that bins of it are fair.
+        samples.push_back({(before + z + after) / 3.0, std::abs(before - 2.0 * z + after)});
       }
     }
   }

@@ -14,8 +14,8 @@ namespace {
 constexpr CameraIntrinsics kCamera{320, 240, 262.5, 262.5, 159.5, 119.5};
 constexpr DepthRange kRange{0.3f, 5.0f};
 
-// A floor from 0.6 to 3.5 m with boxes on it, in 16 bits, with `times` the model's noise.
-RgbdFrame frameWithNoise(double times, const DepthSensorParameters& model) {
+// A floor from 0.6 to 3.5 m with boxes on it, or a wall at 1 m, in 16 bits, with `times` the model's noise.
+RgbdFrame frameWithNoise(double times, const DepthSensorParameters& model, bool wall = false) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   RgbdFrame frame;
@@ -25,7 +25,7 @@ RgbdFrame frameWithNoise(double times, const DepthSensorParameters& model) {
   for (int v = 0; v < kCamera.height; ++v) {
     for (int u = 0; u < kCamera.width; ++u) {
       const double floor_m = 0.6 + 2.9 * v / kCamera.height;
-      const double z = (u / 40 + v / 40) % 3 == 0 ? 0.8 * floor_m : floor_m;
+      const double z = wall ? 1.0 : (u / 40 + v / 40) % 3 == 0 ? 0.8 * floor_m : floor_m;
       const double noisy_m = z + times * AXIAL_SIGMA_M(model, z) * normal(random);
       frame.depth.at<uint16_t>(v, u) = static_cast<uint16_t>(std::lround(noisy_m / frame.depth_unit_m));
     }
@@ -44,7 +44,8 @@ void expectModel(const std::optional<DepthSensorParameters>& found, const DepthS
 TEST(SensorNoise, TheModelStaysWhereItHolds) {
   const DepthSensorParameters model;
   for (const double times : {0.2, 1.0, 1.5})
-    expectModel(raisedToNoise(frameWithNoise(times, model), kRange, model), model);
+    for (const bool wall : {false, true})
+      expectModel(raisedToNoise(frameWithNoise(times, model, wall), kRange, model), model);
 }
 
 TEST(SensorNoise, MoreNoiseIsFoundAtEachDepth) {

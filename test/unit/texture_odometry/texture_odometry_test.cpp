@@ -131,7 +131,8 @@ TEST(TextureOdometry, ColourBesideTheDepthCamera) {
 
   current.color_intrinsics->width = 640;
   EXPECT_EQ(motionBetween(previous, current).reason,
-            "the colour image is 800x600, its intrinsics are for 640x600");
+            "the colour image is 800x600, its intrinsics are for 640x600; give the colour camera's own "
+            "intrinsics, or colour of that size");
 }
 
 TEST(TextureOdometry, ReasonsInsteadOfAMotion) {
