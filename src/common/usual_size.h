@@ -7,7 +7,7 @@
 
 namespace depth_fusion {
 
-// Of sizes that are equally frequent, the first. `sizes` must not be empty.
+// Returns the most frequent size; of sizes that are equally frequent, the first. `sizes` must not be empty.
 inline cv::Size usualSize(const std::vector<cv::Size>& sizes) {
   const auto count = [&](const cv::Size& size) { return std::count(sizes.begin(), sizes.end(), size); };
   return *std::max_element(sizes.begin(), sizes.end(),

@@ -16,7 +16,11 @@ char dominantAxis(const Eigen::Vector3d& direction) {
 
 DegeneracyAnalysis::DegeneracyAnalysis(const IcpSystem& system, const Eigen::AlignedBox3d& box,
                                        double threshold)
-    : to_shrunk_(Matrix6d::Identity()), system_(system), weights_(system.weights()), size_(box.sizes()) {
+    : to_shrunk_(Matrix6d::Identity()),
+      system_(system),
+      weights_(system.weights()),
+      threshold_(threshold),
+      size_(box.sizes()) {
   size_ = size_.cwiseMax(1e-3);
   const Eigen::Matrix3d shrink = size_.cwiseInverse().asDiagonal();
   to_shrunk_.topLeftCorner<3, 3>() = shrink;
@@ -46,9 +50,9 @@ Vector6d DegeneracyAnalysis::solve() const {
   return to_shrunk_.transpose() * (kept * components);
 }
 
-std::string DegeneracyAnalysis::freeDirectionNames() const {
+std::string DegeneracyAnalysis::namesUpTo(double threshold) const {
   std::string names;
-  for (int i = 0; i < free_; ++i) {
+  for (int i = 0; i < 6 && !(eigenvalues_(i) > threshold); ++i) {
     // At the box's centre the shrunk translation is metric; the shrunk rotation is the motion at the box's
     // border.
     const Vector6d shrunk = eigenvectors_.col(i);

@@ -26,7 +26,9 @@ class DegeneracyAnalysis {
   // The solution with no motion along the free directions.
   Vector6d solve() const;
   // The free directions in words, in the frame of the system: "sliding along x, rotating about z".
-  std::string freeDirectionNames() const;
+  std::string freeDirectionNames() const { return namesUpTo(threshold_); }
+  // The same of the directions that would be free by another threshold.
+  std::string namesUpTo(double threshold) const;
 
  private:
   Matrix6d to_shrunk_;  // J^ = to_shrunk * J; twists: x = to_shrunk^T * x^
@@ -34,7 +36,7 @@ class DegeneracyAnalysis {
   Vector6d eigenvalues_;   // ascending, divided by the sum of the weights
   Matrix6d eigenvectors_;  // of the shrunk system, in columns
   Vector6d shrunk_gradient_;
-  double weights_ = 0.0;
+  double weights_ = 0.0, threshold_;
   Eigen::Vector3d size_;
   int free_ = 0;
 };

@@ -189,8 +189,7 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
                            step.tail<3>().norm() < coarseness * parameters_.convergence_m;
     if (!converged && i + 1 < iterations[level]) continue;
     alignment.is_determined = analysis.freeDirections() == 0;
-    alignment.free_directions =
-        DegeneracyAnalysis(alignment.system, box, parameters_.degeneracy_threshold).freeDirectionNames();
+    alignment.free_directions = analysis.namesUpTo(parameters_.degeneracy_threshold);
     alignment.smallest_eigenvalue = analysis.smallestEigenvalue();
     alignment.prior_sigmas =
         distanceFromPrior(analysis, alignment.T_M_D, prior, parameters_.correlated_points);

@@ -16,9 +16,10 @@ constexpr double kWellExplained = 0.7;   // of a frame by a map of few frames, s
 constexpr double kLeastExplained = 0.3;  // of a frame by a map of few frames, else it is lost
 constexpr double kWorseMatches = 0.85;   // than usual, from which on the frame is lost
 constexpr double kDisagreement = 4.0;    // between prior and depth, in standard deviations
-// A hypothesis wins over those before it if it explains more by so much.
-constexpr double kComparableInliers = 0.95;
+// A hypothesis wins over the best one before it if the map explains so much more by it, from as many inliers
+// or so.
 constexpr double kClearlyMore = 1.03;
+constexpr double kComparableInliers = 0.95;
 
 // What is searched around a pose, in steps about as long as ICP's way to a match.
 constexpr double kSearchStep_m = 0.08;
@@ -41,8 +42,8 @@ std::vector<Pose> around(const Pose& T_W_D) {
 
 bool isLost(const TrackingResult& result) { return result.status == TrackingStatus::kLost; }
 
-// Of points where the map has a surface, so that a sensor that moved on to new surface is not held back. A
-// pose whose points hardly meet the map says nothing.
+// What is explained is judged over the points that meet the map, so that a sensor that moved on to new
+// surface is not held back. A pose by which fewer of them match says nothing by a better share.
 bool explainsMore(const TrackingResult& a, const TrackingResult& b) {
   if (isLost(a) || isLost(b)) return !isLost(a);
   if (a.inliers < kComparableInliers * b.inliers) return false;
@@ -58,11 +59,11 @@ TrackingResult HypothesisTracker::track(const DepthFrame& frame, const ModelView
   if (isConvincing(best)) return best;
   const TrackingResult first = best;
   for (const MotionPrior& other : others) {
+    if (saysTheSame(other, prior)) continue;
     TrackingResult result = tracker_.track(frame, view, other, timers);
     if (explainsMore(result, best)) best = std::move(result);
   }
-  const double little = usual_.frames < kFewFrames ? kWellExplained : kHardlyExplained * usual_.explained;
-  if (!fitsAsUsual(best) || best.explained < little) {
+  if (!fitsAsUsual(best) || best.explained < explainedBy(kWellExplained, kHardlyExplained)) {
     for (const MotionPrior& other : others) {
       TrackingResult result = search(frame, view, other, timers);
       if (explainsMore(result, best)) best = std::move(result);
@@ -72,8 +73,8 @@ TrackingResult HypothesisTracker::track(const DepthFrame& frame, const ModelView
     best.dropped_prior = first.prior;
     best.prior_sigmas = first.prior_sigmas;
   }
-  const double needed = usual_.frames < kFewFrames ? kLeastExplained : kUnexplained * usual_.explained;
-  return isLost(best) || best.explained >= needed ? orLost(std::move(best)) : lost(std::move(best));
+  const bool is_unexplained = !isLost(best) && best.explained < explainedBy(kLeastExplained, kUnexplained);
+  return is_unexplained ? lost(std::move(best)) : orLost(std::move(best));
 }
 
 TrackingResult HypothesisTracker::search(const DepthFrame& frame, const ModelView& view,
@@ -92,10 +93,13 @@ void HypothesisTracker::accept(const TrackingResult& result) {
   average(usual_.match_quality, result.match_quality, kMemory_frames);
 }
 
+double HypothesisTracker::explainedBy(double few_frames, double of_usual) const {
+  return usual_.frames < kFewFrames ? few_frames : of_usual * usual_.explained;
+}
+
 bool HypothesisTracker::isConvincing(const TrackingResult& result) const {
-  const double enough = usual_.frames < kFewFrames ? kWellExplained : kLessExplained * usual_.explained;
-  return !isLost(result) && result.prior_sigmas < kDisagreement && result.explained >= enough &&
-         fitsAsUsual(result);
+  return fitsAsUsual(result) && result.prior_sigmas < kDisagreement &&
+         result.explained >= explainedBy(kWellExplained, kLessExplained);
 }
 
 bool HypothesisTracker::fitsAsUsual(const TrackingResult& result) const {

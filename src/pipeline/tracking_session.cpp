@@ -1,5 +1,6 @@
 #include "depth_fusion/pipeline/tracking_session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -121,7 +122,8 @@ TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const Frame
   if (motion_.isTracking()) return lost;
   TrackingResult result = trackFrom(prior, timers);
   std::vector<MotionPrior> starts = motion_.otherStarts();
-  starts.push_back(prior);
+  const auto is_the_prior = [&](const MotionPrior& start) { return saysTheSame(start, prior); };
+  if (std::none_of(starts.begin(), starts.end(), is_the_prior)) starts.push_back(prior);
   for (size_t i = 0; i < starts.size() && result.status == TrackingStatus::kLost; ++i)
     result = orStillLost(tracker_.search(*depth_, render_(starts[i].T_W_D), starts[i], timers));
   return result;

@@ -16,6 +16,11 @@ struct MotionPrior {
   std::string origin;  // what says so: "texture", "last pose", "constant velocity", "search", "start"
 };
 
+// Tracking from either comes to the same.
+inline bool saysTheSame(const MotionPrior& a, const MotionPrior& b) {
+  return !a.covariance && !b.covariance && a.T_W_D.matrix() == b.T_W_D.matrix();
+}
+
 // How the sensor moved since the frame before, as one of its origins (texture, wheels, a gyroscope) measures
 // it.
 struct FrameMotion {

@@ -21,7 +21,7 @@ class HypothesisTracker {
   // worse than usual even there.
   TrackingResult track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior,
                        const std::vector<MotionPrior>& others, StageTimers& timers);
-  // The same with what is all around the start, for a sensor that is lost.
+  // Tracks a sensor that is lost from all around the start.
   TrackingResult search(const DepthFrame& frame, const ModelView& view, const MotionPrior& start,
                         StageTimers& timers);
 
@@ -37,6 +37,8 @@ class HypothesisTracker {
     double explained = 0.0, match_quality = 0.0;
   };
 
+  // How much of a frame is to be explained: a share of what is usual, or, by a map of few frames, so much.
+  double explainedBy(double few_frames, double of_usual) const;
   // Nothing speaks for looking elsewhere.
   bool isConvincing(const TrackingResult& result) const;
   // The matches fit as well as usual.

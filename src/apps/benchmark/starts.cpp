@@ -16,7 +16,6 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kWrong_m = 0.05;
 constexpr double kWrong_rad = 3.0 * CV_PI / 180.0;
 constexpr double kMaxGap_s = 0.05;
 constexpr size_t kFrames = 120;      // of a start, at most
@@ -35,8 +34,7 @@ struct PoseError {
 
 // How far the estimated motion from a to b is from the true one.
 PoseError errorBetween(const PosePair& a, const PosePair& b) {
-  const Pose difference =
-      (a.T_W_truth.inverse() * b.T_W_truth).inverse() * (a.T_W_estimate.inverse() * b.T_W_estimate);
+  const Pose difference = motionError(a, b);
   return {difference.translation().norm(), rotationAngle(difference)};
 }
 

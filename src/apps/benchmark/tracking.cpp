@@ -17,8 +17,6 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kWrong_m = 0.05;
-
 struct Variant {
   std::string name;
   std::vector<std::pair<std::string, std::string>> parameters;  // changed from the input's

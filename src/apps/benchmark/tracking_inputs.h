@@ -8,6 +8,8 @@
 
 namespace depth_fusion {
 
+constexpr double kWrong_m = 0.05;  // a tracked pose that is farther from the truth is wrong
+
 struct TrackingInput {
   std::string name;
   OpenRecording open;
@@ -24,7 +26,7 @@ TrackingInput roomInput(int frames);
 
 // The inputs that options.inputs names, or all. Throws Error for a name that is not known.
 std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options);
-// The same of the inputs that random starts are made in.
+// The inputs for random starts, chosen alike.
 std::vector<TrackingInput> startInputs(const TrackingBenchmark& options);
 
 // Reads all the frames at once, for several runs.

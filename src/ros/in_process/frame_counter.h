@@ -17,7 +17,7 @@ class FrameCounter {
  public:
   void receive() { count(received_); }
   void process() { count(processed_); }
-  // So many frames were sent, and lost on their way.
+  // Counts frames that were sent and were lost on their way.
   void miss(uint32_t frames) { count(missed_, frames); }
   void drop(const std::string& reason) {
     const std::lock_guard<std::mutex> lock(mutex_);

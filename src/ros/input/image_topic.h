@@ -36,8 +36,8 @@ class ImageTopic {
   ImageTopic(const ImageTopic&) = delete;
   ImageTopic& operator=(const ImageTopic&) = delete;
 
-  // With the transport "auto" and nobody who publishes the topic subscribed now: subscribes the first of the
-  // topic's transports that is published.
+  // Subscribes the first of the topic's transports that is published, if the transport is "auto" and nobody
+  // publishes the topic that is subscribed now.
   void lookAround(const PublishedTopics& published);
 
   // The name of the topic subscribed now.
@@ -45,7 +45,7 @@ class ImageTopic {
   // Its type, as sensor_msgs/Image.
   std::string type() const;
   bool isPublished() const;
-  // That two nodes publish it, and which; empty if they do not.
+  // Says which two nodes publish it; empty if they do not.
   std::string problem() const;
 
  private:

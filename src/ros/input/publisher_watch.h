@@ -1,4 +1,4 @@
-// Which of a topic's publishers is listened to, and which of its messages did not come.
+// Decides which of a topic's publishers is listened to, and counts its messages that did not come.
 #pragma once
 
 #include <ros/time.h>

@@ -195,13 +195,13 @@ void RgbdSubscriber::warn(const std::string& text) {
 std::string RgbdSubscriber::problem() const {
   const std::string publishers = publishersProblem();
   const std::string topic = depth_.name();
+  const double silence_s = silent_s();
   const std::lock_guard<std::mutex> lock(mutex_);
-  const double silent_s = (ros::WallTime::now() - last_depth_).toSec();
   const std::string names = missing_.empty() ? "" : "; " + missing_;
   if (!has_come_)
     return "no depth image yet on " + topic + "; is the sensor running, and is that its topic?" + names;
-  if (silent_s > kSilence_s)
-    return "no depth image on " + topic + " for " + std::to_string(static_cast<int>(silent_s)) +
+  if (silence_s > kSilence_s)
+    return "no depth image on " + topic + " for " + std::to_string(static_cast<int>(silence_s)) +
            " s; is the sensor running?" + names;
   if (!problem_.empty()) return problem_;
   return publishers.empty() ? color_problem_ : publishers;

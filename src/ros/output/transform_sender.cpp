@@ -101,7 +101,7 @@ void TransformSender::sendAhead() {
   useNewestOdometry();
   if (!T_map_root_) return;
   const ros::Time stamp = cameraTime() + ros::Duration(parameters_.transform_tolerance_s);
-  const bool clock_went_back = (last_sent_ - stamp).toSec() > 1.0;
+  const bool clock_went_back = secondsBetween(stamp, last_sent_) > 1.0;
   if (stamp <= last_sent_ && !clock_went_back) return;  // a simulated clock stands still
   last_sent_ = stamp;
   send(stamp, *T_map_root_);

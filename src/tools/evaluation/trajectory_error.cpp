@@ -56,8 +56,7 @@ void addRelativeError(const TrajectoryErrorOptions& options, TrajectoryError& er
     const std::optional<Pose> estimate_end = poseAt(estimate, end_s, options.max_gap_s);
     const std::optional<Pose> truth_end = poseAt(truth, end_s, options.max_gap_s);
     if (!estimate_end || !truth_end) continue;
-    const Pose true_motion = pair.T_W_truth.inverse() * *truth_end;
-    const Pose difference = true_motion.inverse() * (pair.T_W_estimate.inverse() * *estimate_end);
+    const Pose difference = motionError(pair, {end_s, *estimate_end, *truth_end});
     translations_m.push_back(difference.translation().norm());
     rotations_deg.push_back(rotationAngle(difference) * kDegPerRad);
   }
@@ -66,6 +65,11 @@ void addRelativeError(const TrajectoryErrorOptions& options, TrajectoryError& er
 }
 
 }  // namespace
+
+Pose motionError(const PosePair& from, const PosePair& to) {
+  const Pose true_motion = from.T_W_truth.inverse() * to.T_W_truth;
+  return true_motion.inverse() * (from.T_W_estimate.inverse() * to.T_W_estimate);
+}
 
 TrajectoryError compareTrajectories(const Trajectory& estimate, const Trajectory& truth,
                                     const TrajectoryErrorOptions& options) {

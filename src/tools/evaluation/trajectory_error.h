@@ -13,6 +13,9 @@ struct PosePair {
   Pose T_W_truth = Pose::Identity();
 };
 
+// What the estimated motion between two moments does beyond the true one, in the later camera's frame.
+Pose motionError(const PosePair& from, const PosePair& to);
+
 struct TrajectoryError {
   Pose T_W_E =
       Pose::Identity();  // maps the estimate's world into the truth's: the rigid alignment, without scale
