@@ -10,9 +10,10 @@ export PATH="/usr/bin:$PATH"
 unset PYTHONHOME PYTHONPATH
 
 # What the rosdep keys of package.xml do not bring: tools, a CPU device for OpenCL, one that checks kernels, and
-# what draws plots. scripts/check has use for clang-format 14 only, which is Debian 12's.
-TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd oclgrind python3-matplotlib)
-CHECK_PACKAGES=(clang-format clang-tidy)
+# what draws plots, and what map files and servers need. The tests start a PostgreSQL server of their own; scripts/check
+# has use for clang-format 14 only, which is Debian 12's.
+TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd oclgrind python3-matplotlib liblmdb-dev libzstd-dev libpq-dev)
+CHECK_PACKAGES=(clang-format clang-tidy postgresql)
 ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 # Debian carries ROS 1 itself, under its own names.
 DEBIAN_PACKAGES=(

@@ -4,6 +4,8 @@
 #include "apps/command_line.h"
 #include "apps/reconstruct/run.h"
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/pipeline/stored_map.h"
+#include "depth_fusion/submaps/map_file.h"
 
 namespace depth_fusion {
 namespace {
@@ -17,7 +19,9 @@ constexpr char kDescription[] =
     "  reconstruct --input desk --output out\n"
     "  reconstruct --input desk.bag --output out --voxel-size 0.01 --max-range 4\n"
     "  reconstruct --input desk_0.bag desk_1.bag --output out\n"
-    "  reconstruct --input desk --output out --trajectory poses.txt\n";
+    "  reconstruct --input desk --output out --trajectory poses.txt\n"
+    "  reconstruct --input desk --output out --map desk.map\n"
+    "  reconstruct --input desk_again --output out_again --continue desk.map\n";
 
 void listDevices() {
   const std::vector<DeviceInfo> devices = ComputeContext::listDevices();
@@ -55,6 +59,11 @@ void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
       "camera file of a colour camera beside the depth camera, with depth_to_color; see cfg/cameras");
   app.add_option("--trajectory", options.trajectory_file,
                  "fuse at these poses (TUM format, or a folder that holds poses) instead of tracking");
+  app.add_option("--map", options.map,
+                 "save the map there in the end: a file, or postgresql://USER@HOST/DATABASE#NAME");
+  app.add_option("--continue", options.continued,
+                 "go on with the map that is stored there, in its frame; it is saved there unless --map says "
+                 "otherwise");
   app.add_option("--max-frames", options.max_frames, "stop after so many frames")
       ->check(CLI::Range(1, 1000000000));
   app.add_option("--device", options.device,
@@ -77,6 +86,11 @@ int run(const Arguments& arguments, RunOptions& options) {
   if (options.device == "list") {
     listDevices();
     return 0;
+  }
+  if (!options.continued.empty()) {
+    const auto stored = openDatabase(options.continued, DatabaseAccess::kRead);
+    adoptParameters(describeMap(*stored), options.parameters);
+    if (options.map.empty()) options.map = options.continued;
   }
   validate(options.parameters.table());
   if (arguments.print_parameters) {

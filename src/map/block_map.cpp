@@ -93,16 +93,38 @@ void BlockMap::reset(const Eigen::Vector3d& centre_W) {
   placeWindow(centre_W);
 }
 
+void BlockMap::resetAt(const BlockIndex& window_origin) {
+  slots_.clear();
+  changes_.noteReset();
+  place({window_origin, parameters_.blocks_per_axis});
+}
+
 void BlockMap::placeWindow(const Eigen::Vector3d& centre_W) {
   check(slots_.used() == 0, "the window of a map with blocks cannot be placed anew");
   const double block_m = static_cast<double>(parameters_.voxel_size_m) * parameters_.block_size;
-  window_ = Window::centredOn(centre_W, block_m, parameters_.blocks_per_axis);
+  place(Window::centredOn(centre_W, block_m, parameters_.blocks_per_axis));
+}
+
+void BlockMap::place(const Window& window) {
+  window_ = window;
   slots_.clear();
   offsets_.fill(BLOCK_EMPTY, offsets_.bytes());
 }
 
 size_t BlockMap::allocate(const std::vector<BlockIndex>& blocks) {
   const std::vector<int> slots = slots_.take(blocks);
+  enter(blocks, slots);
+  return slots.size();
+}
+
+std::vector<int> BlockMap::insert(const std::vector<BlockIndex>& blocks) {
+  check(blocks.size() <= slots_.free(), "the pool is full: raise map/pool_mib");
+  std::vector<int> slots = slots_.take(blocks);
+  enter(blocks, slots);
+  return slots;
+}
+
+void BlockMap::enter(const std::vector<BlockIndex>& blocks, const std::vector<int>& slots) {
   const size_t met = slots.size();
   for (size_t begin = 0; begin < blocks.size();) {
     // A batch lies wholly on one side of `met`, so that it is either entered or withdrawn.
@@ -119,7 +141,6 @@ size_t BlockMap::allocate(const std::vector<BlockIndex>& blocks) {
     begin = end;
   }
   changes_.noteUpdated(slots);
-  return met;
 }
 
 void BlockMap::release(const std::vector<int>& slots) {

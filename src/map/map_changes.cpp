@@ -8,10 +8,6 @@
 namespace depth_fusion {
 namespace {
 
-struct InOrder {
-  bool operator()(const BlockIndex& a, const BlockIndex& b) const { return before(a, b); }
-};
-
 uint32_t newGeneration() {
   static std::atomic<uint32_t> last{0};
   return ++last;
@@ -80,7 +76,7 @@ MapChanges ChangeLog::changesSince(uint64_t step) const {
   std::sort(updated.begin(), updated.end());
   for (const auto& entry : updated) changes.updated.push_back(slots_.blockOf(entry.second));
   if (changes.complete) return changes;
-  std::set<BlockIndex, InOrder> released;
+  std::set<BlockIndex, BlockOrder> released;
   for (auto entry = released_.rbegin(); entry != released_.rend() && entry->step > step; ++entry)
     released.insert(entry->block);
   for (const BlockIndex& block : changes.updated) released.erase(block);

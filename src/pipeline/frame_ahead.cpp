@@ -36,8 +36,6 @@ void FrameAhead::wait() const {
   if (texture_.valid()) texture_.wait();
 }
 
-void FrameAhead::checkNoneAnnounced() const {
-  check(!announced_, "a frame was announced, but one with a pose from elsewhere came");
-}
+void FrameAhead::checkNoneAnnounced() const { check(!announced_, "a frame was announced, and has not come"); }
 
 }  // namespace depth_fusion

@@ -2,11 +2,14 @@
 
 #include <utility>
 
+#include "depth_fusion/pipeline/stored_map.h"
+
 namespace depth_fusion {
 
 ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
                                                const CameraIntrinsics& camera)
     : parameters_(parameters),
+      camera_(camera),
       map_(compute, parameters.map),
       odometry_(parameters.texture_odometry, parameters.depth_sensor),
       mapper_(compute, map_, parameters, camera),
@@ -41,6 +44,22 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   return result;
 }
 
+LoadedMap ReconstructionPipeline::load(Database& stored) {
+  ahead_.checkNoneAnnounced();
+  checkFilterRule(describeMap(stored), parameters_, stored.name());
+  LoadedMap loaded = loadMap(stored, map_);
+  last_pose_ = loaded.description.last_pose;
+  session_.reset(last_pose_.T_W_D, loaded.keyframes);
+  view_ = &mapper_.render(last_pose_.T_W_D, timers_);
+  return loaded;
+}
+
+SaveReport ReconstructionPipeline::save(MapSaver& saver) {
+  saver.prepare();
+  saver.capture(map_, descriptionOf(parameters_, camera_, last_pose_), session_.keyframes());
+  return saver.write();
+}
+
 void ReconstructionPipeline::fuseAndRender(const RgbdFrame& frame, FrameResult& result) {
   try {
     fuse(frame, result);
@@ -57,7 +76,10 @@ void ReconstructionPipeline::fuse(const RgbdFrame& frame, FrameResult& result) {
   const MappingResult mapping = mapper_.fuse(frame, *session_.depth(), result.tracking.T_W_D, timers_);
   result.fusion = mapping.fusion;
   result.color = mapping.color;
-  if (mapping.fusion.fused()) return;
+  if (mapping.fusion.fused()) {
+    last_pose_ = {frame.stamp_s, result.tracking.T_W_D};
+    return;
+  }
   result.tracking.status = TrackingStatus::kLost;
   result.tracking.reason = notFusedReason();
 }

@@ -8,6 +8,30 @@
 #include "depth_fusion/preprocessing/depth_range.h"
 
 namespace depth_fusion {
+namespace {
+
+constexpr int kFramesAtGiven = 10;  // in which the sensor is searched for at a pose that was given
+
+// Poses about one that was given by eye, the pose itself first: aside, ahead and turned.
+std::vector<Pose> aboutGiven(const Pose& T_W_D) {
+  constexpr double kSteps[] = {0.0, -1.0, 1.0};
+  constexpr double kStep_m = 0.3, kStep_rad = 0.25;
+  std::vector<Pose> poses;
+  for (const double aside : kSteps) {
+    for (const double ahead : kSteps) {
+      for (const double turn : kSteps) {
+        Vector6d twist = Vector6d::Zero();
+        twist[1] = turn * kStep_rad;
+        twist[3] = aside * kStep_m;
+        twist[5] = ahead * kStep_m;
+        poses.push_back(T_W_D * poseFromTwist(twist));
+      }
+    }
+  }
+  return poses;
+}
+
+}  // namespace
 
 TrackingSession::TrackingSession(ComputeContext& compute, const PipelineParameters& parameters,
                                  const CameraIntrinsics& camera, RenderView render)
@@ -84,11 +108,18 @@ void TrackingSession::skip(double stamp_s, const std::vector<FrameMotion>& measu
   motion_.predict(stamp_s, measured);
 }
 
-void TrackingSession::reset(const Pose& T_W_D) {
+void TrackingSession::reset(const Pose& T_W_D, Keyframes keyframes) {
   lose();
   motion_.loseAt(T_W_D);
-  relocaliser_.reset();
+  given_.reset();
+  relocaliser_.reset(std::move(keyframes));
   tracker_.reset();
+}
+
+void TrackingSession::searchAt(const Pose& T_W_D) {
+  lose();
+  motion_.loseAt(T_W_D);
+  given_ = {T_W_D, kFramesAtGiven};
 }
 
 TrackingResult TrackingSession::begin(const RgbdFrame& frame, const MotionPrior& prior) const {
@@ -113,7 +144,11 @@ TrackingResult TrackingSession::track(const MotionPrior& prior, const FrameFeatu
 TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const FrameFeatures& features,
                                            const TrackingResult& lost, StageTimers& timers) {
   const StageTimers::Scope timer(timers, "relocalisation");
-  for (const Keyframe* keyframe : relocaliser_.candidates(features)) {
+  if (given_) {
+    const TrackingResult result = searchAtGiven(timers);
+    if (result.status != TrackingStatus::kLost) return result;
+  }
+  for (const KeyframePtr& keyframe : relocaliser_.candidates(features)) {
     const TextureOdometryResult motion = matcher_.match(keyframe->features, features, true);
     if (!motion.found) continue;
     TrackingResult result = trackFrom(motion.priorFrom(keyframe->T_W_D), timers);
@@ -127,6 +162,17 @@ TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const Frame
   for (size_t i = 0; i < starts.size() && result.status == TrackingStatus::kLost; ++i)
     result = orStillLost(tracker_.search(*depth_, render_(starts[i].T_W_D), starts[i], timers));
   return result;
+}
+
+TrackingResult TrackingSession::searchAtGiven(StageTimers& timers) {
+  TrackingResult best;
+  for (const Pose& T_W_D : aboutGiven(given_->T_W_D)) {
+    const TrackingResult result =
+        orStillLost(tracker_.search(*depth_, render_(T_W_D), {T_W_D, std::nullopt, "given pose"}, timers));
+    if (result.status != TrackingStatus::kLost && result.explained > best.explained) best = result;
+  }
+  if (best.status != TrackingStatus::kLost || --given_->frames_left == 0) given_.reset();
+  return best;
 }
 
 TrackingResult TrackingSession::trackFrom(const MotionPrior& prior, StageTimers& timers) {

@@ -8,9 +8,6 @@
 namespace depth_fusion {
 namespace {
 
-// A thumbnail is small enough to be blind to a shift by a tenth of the image.
-constexpr int kThumbnailWidth_px = 32;
-constexpr int kThumbnailHeight_px = 24;
 constexpr double kThumbnailBlur_px = 2.0;
 
 cv::Mat thumbnailOf(const FrameFeatures& features) {
@@ -31,12 +28,12 @@ double separation(const Pose& T_W_A, const Pose& T_W_B, const RelocalisationPara
                   rotationAngle(T_A_B) / parameters.keyframe_angle_rad);
 }
 
-size_t mostCrowded(const std::vector<Keyframe>& keyframes, const RelocalisationParameters& parameters) {
+size_t mostCrowded(const Keyframes& keyframes, const RelocalisationParameters& parameters) {
   size_t most_crowded = 0;
   double smallest = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < keyframes.size(); ++i) {
     for (size_t k = 0; k < i; ++k) {
-      const double distance = separation(keyframes[i].T_W_D, keyframes[k].T_W_D, parameters);
+      const double distance = separation(keyframes[i]->T_W_D, keyframes[k]->T_W_D, parameters);
       if (distance >= smallest) continue;
       smallest = distance;
       most_crowded = k;
@@ -59,11 +56,17 @@ void Relocaliser::setParameters(const RelocalisationParameters& parameters) {
 
 void Relocaliser::add(const FrameFeatures& features, const Pose& T_W_D) {
   if (!features.reason.empty() || parameters_.max_keyframes == 0) return;
-  for (const Keyframe& keyframe : keyframes_) {
-    if (separation(keyframe.T_W_D, T_W_D, parameters_) < 1.0) return;
+  for (const KeyframePtr& keyframe : keyframes_) {
+    if (separation(keyframe->T_W_D, T_W_D, parameters_) < 1.0) return;
   }
-  keyframes_.push_back({features, thumbnailOf(features), T_W_D});
-  keyframes_.back().features.smoothed_levels.clear();
+  Keyframe keyframe{features, thumbnailOf(features), T_W_D};
+  keyframe.features.smoothed_levels.clear();
+  keyframes_.push_back(std::make_shared<const Keyframe>(std::move(keyframe)));
+  dropSurplus();
+}
+
+void Relocaliser::reset(Keyframes keyframes) {
+  keyframes_ = std::move(keyframes);
   dropSurplus();
 }
 
@@ -73,14 +76,15 @@ void Relocaliser::dropSurplus() {
   }
 }
 
-std::vector<const Keyframe*> Relocaliser::candidates(const FrameFeatures& features) const {
+Keyframes Relocaliser::candidates(const FrameFeatures& features) const {
   if (!features.reason.empty()) return {};
   const cv::Mat thumbnail = thumbnailOf(features);
-  std::vector<std::pair<double, const Keyframe*>> ranked;
-  for (const Keyframe& keyframe : keyframes_)
-    ranked.push_back({-thumbnail.dot(keyframe.thumbnail), &keyframe});
-  std::sort(ranked.begin(), ranked.end());
-  std::vector<const Keyframe*> best;
+  std::vector<std::pair<double, KeyframePtr>> ranked;
+  for (const KeyframePtr& keyframe : keyframes_)
+    ranked.emplace_back(-thumbnail.dot(keyframe->thumbnail), keyframe);
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  Keyframes best;
   for (const auto& [unlikeness, keyframe] : ranked) best.push_back(keyframe);
   best.resize(std::min(best.size(), static_cast<size_t>(parameters_.max_candidates)));
   return best;

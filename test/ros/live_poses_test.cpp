@@ -29,16 +29,16 @@ TEST_F(LivePoses, PosesGoOutAsMessagesAndOverTf) {
   ASSERT_TRUE(
       eventually([&] { return buffer.canTransform("map_poses", "camera_rgb_optical_frame", stamp); }));
   const auto transform = buffer.lookupTransform("map_poses", "camera_rgb_optical_frame", stamp);
-  expectPose(fromMessage(transform.transform), poseOf(pose->pose.pose), 1e-9, 1e-7);
+  expectPose(fromMessage(transform.transform), fromMessage(pose->pose.pose), 1e-9, 1e-7);
 
   // Level at the start: the optical axis is x of the map, and y points down.
-  const Pose T_map_first = poseOf(poses_.all().front()->pose.pose);
+  const Pose T_map_first = fromMessage(poses_.all().front()->pose.pose);
   EXPECT_TRUE((T_map_first.linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitX(), 1e-9));
   EXPECT_TRUE((T_map_first.linear() * Eigen::Vector3d::UnitY()).isApprox(-Eigen::Vector3d::UnitZ(), 1e-9));
   const Pose motion = frames.front().T_W_D->inverse() * *frames.back().T_W_D;
-  expectPose(T_map_first.inverse() * poseOf(pose->pose.pose), motion);
+  expectPose(T_map_first.inverse() * fromMessage(pose->pose.pose), motion);
   ASSERT_TRUE(odometry.awaitCount(frames.size() - 1));
-  expectPose(poseOf(odometry.all().back()->pose.pose), motion, 0.05, 0.03);
+  expectPose(fromMessage(odometry.all().back()->pose.pose), motion, 0.05, 0.03);
   Listener<nav_msgs::Path> path(graph_.handle(), "icp_tracking/path");  // late
   ASSERT_TRUE(path.awaitCount(1));
   EXPECT_EQ(path.all().back()->header.frame_id, "map_poses");
@@ -109,7 +109,7 @@ TEST_F(LivePoses, TheFirstFrameWaitsForATreeOnTfThatComesLate) {
   ASSERT_TRUE(buffer._getParent("late_base", ros::Time(0), parent));
   EXPECT_EQ(parent, "map_late");
   // The robot's frame stands at the map's origin in the first frame.
-  expectPose(poseOf(poses_.all().front()->pose.pose), T_base_camera, 1e-9, 1e-7);
+  expectPose(fromMessage(poses_.all().front()->pose.pose), T_base_camera, 1e-9, 1e-7);
 }
 
 TEST_F(LivePoses, ATreeThatGrowsLaterIsFollowed) {
@@ -144,7 +144,7 @@ TEST_F(LivePoses, ATreeThatGrowsLaterIsFollowed) {
     const auto pose = poses_.awaitStamp(header.stamp);
     ASSERT_NE(pose, nullptr);
     expectPose(fromMessage(buffer.lookupTransform("map_growing", "growing_link", header.stamp).transform),
-               poseOf(pose->pose.pose) * T_link_camera.inverse(), 1e-9, 1e-7);
+               fromMessage(pose->pose.pose) * T_link_camera.inverse(), 1e-9, 1e-7);
   }
   EXPECT_TRUE(followed);
 }

@@ -73,8 +73,8 @@ TEST_F(Live, ModesStopMappingAndTracking) {
   const auto again = fuse(frames[8]);
   ASSERT_NE(again, nullptr);
   EXPECT_TRUE(again->fused) << again->reason;
-  const Pose T_map_first = poseOf(poses_.all().front()->pose.pose);
-  expectPose(T_map_first.inverse() * poseOf(poses_.all().back()->pose.pose),
+  const Pose T_map_first = fromMessage(poses_.all().front()->pose.pose);
+  expectPose(T_map_first.inverse() * fromMessage(poses_.all().back()->pose.pose),
              frames.front().T_W_D->inverse() * *frames[8].T_W_D);
 
   SetMode wrong;

@@ -19,14 +19,7 @@ using sensor_msgs::Image;
 constexpr double kMaxOffset_m = 0.01;
 constexpr double kMaxTurn_rad = 0.0087;
 
-Pose poseOf(const PoseWithCovarianceStamped& message) {
-  geometry_msgs::Transform transform;
-  transform.translation.x = message.pose.pose.position.x;
-  transform.translation.y = message.pose.pose.position.y;
-  transform.translation.z = message.pose.pose.position.z;
-  transform.rotation = message.pose.pose.orientation;
-  return fromMessage(transform);
-}
+Pose poseOf(const PoseWithCovarianceStamped& message) { return fromMessage(message.pose.pose); }
 
 Eigen::AlignedBox3f boundsOf(const TriangleMesh& mesh) {
   Eigen::AlignedBox3f box;

@@ -68,7 +68,7 @@ TEST_F(Resets, EmptyMapAndTracker) {
   EXPECT_EQ(after.frames.processed, 12u);
   // The first frame after it begins a map of its own.
   const auto first = tracked.awaitStamp(camera_.headerOf(frames[6]).stamp);
-  EXPECT_TRUE(poseOf(poses_.awaitStamp(first->header.stamp)->pose.pose).translation().isZero());
+  EXPECT_TRUE(fromMessage(poses_.awaitStamp(first->header.stamp)->pose.pose).translation().isZero());
 }
 
 TEST_F(Resets, RefuseFramesFromBefore) {

@@ -79,10 +79,7 @@ class UnregisteredDepth : public testing::Test {
       const auto status = map_status.awaitStamp(toRosTime(frame.stamp_s));
       ASSERT_NE(status, nullptr);
       ASSERT_TRUE(status->fused) << status->reason;
-      const geometry_msgs::Pose pose = poses.awaitStamp(toRosTime(frame.stamp_s))->pose.pose;
-      found.push_back(
-          Pose(Eigen::Translation3d(pose.position.x, pose.position.y, pose.position.z)) *
-          Eigen::Quaterniond(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z));
+      found.push_back(fromMessage(poses.awaitStamp(toRosTime(frame.stamp_s))->pose.pose));
     }
     const auto motion = textured.awaitStamp(toRosTime(frames.back().stamp_s))->payload->texture.motion;
     EXPECT_TRUE(motion.found) << motion.reason;

@@ -10,15 +10,6 @@
 
 namespace depth_fusion {
 
-inline Pose poseOf(const geometry_msgs::Pose& message) {
-  geometry_msgs::Transform transform;
-  transform.translation.x = message.position.x;
-  transform.translation.y = message.position.y;
-  transform.translation.z = message.position.z;
-  transform.rotation = message.orientation;
-  return fromMessage(transform);
-}
-
 // Expects that the sensor is where it is thought to be, to within a distance in metres and an angle in
 // radians.
 inline void expectPose(const Pose& found, const Pose& expected, double metres = 0.01,

@@ -14,4 +14,9 @@ inline bool before(const BlockIndex& a, const BlockIndex& b) {
   return std::make_tuple(a.z(), a.y(), a.x()) < std::make_tuple(b.z(), b.y(), b.x());
 }
 
+// The same order, for containers.
+struct BlockOrder {
+  bool operator()(const BlockIndex& a, const BlockIndex& b) const { return before(a, b); }
+};
+
 }  // namespace depth_fusion

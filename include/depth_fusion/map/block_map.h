@@ -45,9 +45,10 @@ class BlockMap {
   BlockMap(ComputeContext& compute, const MapParameters& parameters);
   ~BlockMap();
 
-  // Empties the map and places the middle of the window at the block with the point centre_W. A new
-  // generation begins.
+  // Empties the map and places the middle of the window at the block with the point centre_W, or its first
+  // block at the origin. A new generation begins.
   void reset(const Eigen::Vector3d& centre_W);
+  void resetAt(const BlockIndex& window_origin);
   // Places the window of a map without blocks; the generation goes on.
   void placeWindow(const Eigen::Vector3d& centre_W);
 
@@ -55,6 +56,9 @@ class BlockMap {
   // that block selection requested, inside the window and not allocated; requests not met are withdrawn.
   // Returns how many were met.
   size_t allocate(const std::vector<BlockIndex>& blocks);
+  // Gives memory to the blocks, which are inside the window and not in the map, and returns their slots:
+  // their contents are for the caller to write. Throws Error if there is no room for all.
+  std::vector<int> insert(const std::vector<BlockIndex>& blocks);
   // Takes back the slots, which must be in use. Their entries of `offsets` are already empty on the device.
   void release(const std::vector<int>& slots);
 
@@ -88,6 +92,11 @@ class BlockMap {
   DeviceBuffer& blockStates() { return block_states_; }
 
  private:
+  void place(const Window& window);
+  // Enters the first of the blocks with these slots, as many as there are, and clears them; the requests of
+  // the others are withdrawn.
+  void enter(const std::vector<BlockIndex>& blocks, const std::vector<int>& slots);
+
   // The caller sets the contents.
   BlockMap(ComputeContext& compute, const MapParameters& checked, SlotTable slots,
            const std::vector<LayerRow>& layers);

@@ -6,6 +6,7 @@
 #include "depth_fusion/pipeline/frame_ahead.h"
 #include "depth_fusion/pipeline/mapper.h"
 #include "depth_fusion/pipeline/tracking_session.h"
+#include "depth_fusion/submaps/map_file.h"
 
 namespace depth_fusion {
 
@@ -32,12 +33,18 @@ class ReconstructionPipeline {
   // a frame was announced.
   FrameResult processFrame(const RgbdFrame& frame, const Pose& T_W_D);
 
+  // Goes on with a stored map: W is the map's, and the sensor is searched for in it. Throws Error, and
+  // changes nothing, if the map does not fit the parameters or is damaged, or if a frame was announced.
+  LoadedMap load(Database& stored);
+  // Saves the map as it is now. Throws Error if it cannot be written.
+  SaveReport save(MapSaver& saver);
+
   BlockMap& map() { return map_; }
   StageTimers& timers() { return timers_; }
   const PipelineParameters& parameters() const { return parameters_; }
   // The last frame, preprocessed; null before the first.
   std::shared_ptr<const DepthFrame> depth() const { return session_.depth(); }
-  size_t keyframeCount() const { return session_.keyframeCount(); }
+  size_t keyframeCount() const { return session_.keyframes().size(); }
 
  private:
   // Fuses the session's frame and renders the view that the next one is tracked against. A frame that an
@@ -47,6 +54,7 @@ class ReconstructionPipeline {
   void fuse(const RgbdFrame& frame, FrameResult& result);
 
   PipelineParameters parameters_;
+  CameraIntrinsics camera_;
   StageTimers timers_;
   BlockMap map_;
   TextureOdometry odometry_;
@@ -54,6 +62,7 @@ class ReconstructionPipeline {
   std::unique_ptr<ComputeContext> tracking_queue_;
   TrackingSession session_;
   const ModelView* view_ = nullptr;  // of the last fused frame; none before the first
+  StampedPose last_pose_;            // of the last fused frame
   FrameAhead ahead_;
 };
 

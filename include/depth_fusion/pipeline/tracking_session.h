@@ -47,12 +47,14 @@ class TrackingSession {
   void skip(double stamp_s, const std::vector<FrameMotion>& measured);
   // Gives up the frame before: the next frame is searched for.
   void lose() { conclude(false); }
-  // Forgets everything; the sensor is then searched for at T_W_D.
-  void reset(const Pose& T_W_D = Pose::Identity());
+  // Forgets everything; the sensor is then searched for at T_W_D, and where the map's keyframes say.
+  void reset(const Pose& T_W_D = Pose::Identity(), Keyframes keyframes = {});
+  // Somebody says where the sensor is, to half a metre or so: it is searched for there first.
+  void searchAt(const Pose& T_W_D);
 
   // The frame of the last step() or follow(), preprocessed.
   std::shared_ptr<const DepthFrame> depth() const { return depth_; }
-  size_t keyframeCount() const { return relocaliser_.keyframes().size(); }
+  const Keyframes& keyframes() const { return relocaliser_.keyframes(); }
 
  private:
   // A frame that is ready to be tracked.
@@ -77,6 +79,8 @@ class TrackingSession {
   // sensor is. Returns `lost` if nothing fits.
   TrackingResult relocalise(const MotionPrior& prior, const FrameFeatures& features,
                             const TrackingResult& lost, StageTimers& timers);
+  // The same about the pose that was given, for some frames.
+  TrackingResult searchAtGiven(StageTimers& timers);
   TrackingResult trackFrom(const MotionPrior& prior, StageTimers& timers);
   // The result, or that the frame is lost if too little of it fits the map.
   TrackingResult orStillLost(TrackingResult result) const;
@@ -91,6 +95,12 @@ class TrackingSession {
   std::shared_ptr<const DepthFrame> depth_;
   std::optional<FoundFrame> found_;
   std::optional<PreparedFrame> ahead_;
+  // Where somebody says that the sensor is, until it is found.
+  struct GivenPose {
+    Pose T_W_D;
+    int frames_left;  // that it is searched for in
+  };
+  std::optional<GivenPose> given_;
 };
 
 }  // namespace depth_fusion

@@ -51,6 +51,9 @@ class Run {
   void showProgress(bool last);
   // Returns 0 before the first frame.
   double medianFrame_ms() const;
+  // Goes on with the map of --continue.
+  void loadMap();
+  void saveMap();
   void writeResults();
   void writeMesh(const std::string& path);
   // Does one thing of many that should all be tried; a failure is said and remembered.
@@ -63,10 +66,12 @@ class Run {
   std::unique_ptr<Recording> recording_;
   Trajectory poses_;
   std::unique_ptr<ReconstructionPipeline> pipeline_;
+  std::unique_ptr<MapSaver> saver_;  // null: the map is saved nowhere
   Trajectory trajectory_;
   RunCounts counts_;
   std::string status_;
-  bool is_lost_ = false;  // the frame before
+  bool is_lost_ = false;          // the frame before
+  bool is_searched_for_ = false;  // in a map that was loaded
   bool pool_was_full_ = false;
   bool color_was_bad_ = false;
   bool stamp_was_bad_ = false;
@@ -130,6 +135,25 @@ void Run::buildPipeline(const CameraIntrinsics& camera) {
   }
   std::printf(" %.1f s\n", timers.samplesMs().at("build").front() / 1000.0);
   std::fflush(stdout);
+  if (!options_.map.empty()) {
+    checkPlace(options_.map);
+    saver_ = std::make_unique<MapSaver>(options_.map);
+  }
+  if (!options_.continued.empty()) loadMap();
+}
+
+void Run::loadMap() {
+  const std::unique_ptr<Database> stored = openDatabase(options_.continued, DatabaseAccess::kRead);
+  const LoadedMap loaded = pipeline_->load(*stored);
+  if (options_.map == options_.continued) saver_->adopt(pipeline_->map(), loaded);
+  is_searched_for_ = true;
+  std::cout << "map: " << pipeline_->map().usage().blocks << " blocks and " << loaded.keyframes.size()
+            << " keyframes of " << stored->name() << std::endl;
+}
+
+void Run::saveMap() {
+  const SaveReport saved = pipeline_->save(*saver_);
+  std::cout << saved.place << ": " << saved.blocks << " blocks, " << saved.bytes << " bytes" << std::endl;
 }
 
 std::optional<RgbdFrame> Run::nextFrame() {
@@ -164,6 +188,7 @@ void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
     noteLoss(tracking.reason);
     return;
   }
+  if (std::exchange(is_searched_for_, false)) say("found in the map");
   if (is_lost_) say("tracking again after " + std::to_string(counts_.losses.back().frames) + " lost frames");
   is_lost_ = false;
   ++counts_.tracked;
@@ -255,6 +280,7 @@ void Run::writeResults() {
   const std::string folder = options_.output + "/";
   const size_t tracking_peak_rss_bytes = peakRssBytes();
   attempt([&] { writeTrajectory(folder + "trajectory.txt", trajectory_); });
+  if (saver_ != nullptr && counts_.tracked > 0) attempt([&] { saveMap(); });
   if (!options_.no_mesh) attempt([&] { writeMesh(folder + "mesh.ply"); });
   attempt([&] {
     writeReport(folder + "report.json", input_, compute_, *pipeline_, counts_, tracking_peak_rss_bytes);

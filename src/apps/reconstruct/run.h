@@ -14,6 +14,8 @@ struct RunOptions {
   std::string output;
   std::string trajectory_file;
   std::string device;
+  std::string map;        // where the map is saved in the end; empty: nowhere
+  std::string continued;  // a map to go on with; empty: none
   size_t max_frames = 0;  // 0 = all
   bool no_mesh = false;
   RecordingOptions recording;

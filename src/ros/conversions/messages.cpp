@@ -118,4 +118,16 @@ Pose fromMessage(const geometry_msgs::Transform& transform) {
   return pose;
 }
 
+Pose fromMessage(const geometry_msgs::Pose& pose) {
+  const auto& q = pose.orientation;
+  const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
+  const Eigen::Vector3d position(pose.position.x, pose.position.y, pose.position.z);
+  check(rotation.coeffs().allFinite() && position.allFinite() && rotation.norm() > 1e-6,
+        "the pose is none: numbers that are not finite, or a quaternion of zeros");
+  Pose result = Pose::Identity();
+  result.linear() = rotation.normalized().toRotationMatrix();
+  result.translation() = position;
+  return result;
+}
+
 }  // namespace depth_fusion

@@ -45,5 +45,7 @@ geometry_msgs::PoseWithCovariance toMessage(const Pose& pose, const Matrix6d& co
 geometry_msgs::TransformStamped makeTransform(const std_msgs::Header& header, const std::string& child,
                                               const Pose& pose);
 Pose fromMessage(const geometry_msgs::Transform& transform);
+// Throws Error for a pose that is none: numbers that are not finite, a quaternion of zeros.
+Pose fromMessage(const geometry_msgs::Pose& pose);
 
 }  // namespace depth_fusion

@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include "depth_fusion/pipeline/stored_map.h"
+
 namespace depth_fusion {
 namespace {
 
@@ -48,6 +50,7 @@ MappingOutcome FrameMapper::fuse(const TrackedFrame& frame, FusedMap& map, Stage
       frame.depth ? *frame.depth : preprocessor_->process(rgbd, motion_.moveTo(rgbd.stamp_s, T_W_D), timers);
   const MappingResult result = map.mapper(camera_).fuse(rgbd, depth, T_W_D, timers);
   if (!result.fusion.fused()) return {false, false, notFusedReason()};
+  last_pose_ = {rgbd.stamp_s, T_W_D};
   return {true, true, leftOutReason(result), result.fusion.blocks_requested - result.fusion.blocks_allocated};
 }
 
@@ -55,6 +58,24 @@ void FrameMapper::render(const TrackedFrame& frame, FusedMap& map, StageTimers& 
   Mapper& mapper = map.mapper(camera_);
   mapper.render(frame.tracking.T_W_D, timers);
   view_ = mapper.renderer().view();
+}
+
+LoadedMap FrameMapper::load(FusedMap& map, Database& stored, const MapReset& reset) {
+  LoadedMap loaded = map.load(stored);
+  prepare(loaded.description.camera);
+  last_pose_ = loaded.description.last_pose;
+  Mapper& mapper = map.mapper(camera_);
+  StageTimers timers;
+  mapper.render(last_pose_.T_W_D, timers);
+  view_ = mapper.renderer().view();
+  admission_.noteReset(reset);
+  return loaded;
+}
+
+MapDescription FrameMapper::describe(FusedMap& map) const {
+  PipelineParameters parameters = parameters_;
+  parameters.map = map.map().parameters();
+  return descriptionOf(parameters, camera_, last_pose_);
 }
 
 void FrameMapper::reset(FusedMap& map, const MapReset& reset) {

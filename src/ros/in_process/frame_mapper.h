@@ -35,6 +35,11 @@ class FrameMapper {
   // Renders the view of an accepted frame.
   void render(const TrackedFrame& frame, FusedMap& map, StageTimers& timers);
   ModelViewRenderer& renderer(FusedMap& map) const { return map.mapper(camera_).renderer(); }
+  // Takes in a stored map by a call: frames from before are refused from now on. Throws Error, and changes
+  // nothing, as loadMap does.
+  LoadedMap load(FusedMap& map, Database& stored, const MapReset& reset);
+  // What is stored of the map beside its contents.
+  MapDescription describe(FusedMap& map) const;
   // Empties the map by a call: frames from before are refused from now on.
   void reset(FusedMap& map, const MapReset& reset);
 
@@ -55,6 +60,7 @@ class FrameMapper {
   MotionModel motion_;                               // of frames that come without preprocessed depth
   std::unique_ptr<DepthPreprocessor> preprocessor_;  // the same
   std::shared_ptr<const ModelView> view_;
+  StampedPose last_pose_;  // of the last fused frame
 };
 
 }  // namespace depth_fusion

@@ -8,7 +8,9 @@ namespace {
 
 constexpr size_t kMaxViews = 8;
 constexpr auto kPeriod = std::chrono::milliseconds(200);
-constexpr auto kPatience = std::chrono::seconds(60);  // kernels may have to be built first
+constexpr auto kPatience = std::chrono::milliseconds(60000);  // kernels may have to be built first
+constexpr auto kGreeting =
+    std::chrono::milliseconds(2000);  // it is on its way as soon as the two are connected
 
 }  // namespace
 
@@ -31,14 +33,14 @@ void FusionLink::stop() {
 }
 
 std::vector<FusionNews> FusionLink::await() {
-  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  const auto give_up = std::chrono::steady_clock::now() + (sent_ ? kPatience : kGreeting);
   std::vector<FusionNews> news;
   std::unique_lock<std::mutex> lock(mutex_);
   do {
     for (; !views_.empty(); views_.pop_front()) {
       if (const std::optional<FusionNews> one = newsOf(*views_.front())) news.push_back(*one);
     }
-    if (!sent_ || !connected()) break;
+    if (!isWaiting() || !connected()) break;
     changed_.wait_for(lock, kPeriod, [this] { return stopping_ || !views_.empty(); });
   } while (!stopping_ && std::chrono::steady_clock::now() < give_up);
   if (sent_) news.push_back({stopping_ ? FusionNews::kRejected : FusionNews::kUnanswered, nullptr});

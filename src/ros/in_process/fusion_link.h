@@ -33,9 +33,9 @@ class FusionLink {
   bool connected() const { return frames_.getNumSubscribers() > 0; }
 
   // From the tracker's thread:
-  // Waits for the answer to the frame sent last, and returns all that fusion said since the last call, oldest
-  // first. A frame counts as unanswered after a minute, or if nobody is there to answer, and as rejected
-  // after stop().
+  // Waits for the answer to the frame sent last, or, before the first, for fusion to tell of its map. Returns
+  // all that fusion said since the last call, oldest first. A frame counts as unanswered after a minute, or
+  // if nobody is there to answer, and as rejected after stop().
   std::vector<FusionNews> await();
   void send(const SensorFramePtr& frame, std::shared_ptr<const DepthFrame> depth,
             const TrackingResult& tracking);
@@ -51,6 +51,7 @@ class FusionLink {
   };
 
   std::optional<FusionNews> newsOf(const MapViewMessage& message);
+  bool isWaiting() const { return sent_ || map_generation_ == 0; }
 
   ros::Publisher frames_;
   std::optional<Sent> sent_;     // the frame that is not answered yet

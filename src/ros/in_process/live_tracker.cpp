@@ -36,6 +36,7 @@ LiveResult LiveTracker::track(const TexturedSensorFrame& frame, StageTimers& tim
   LiveResult result;
   result.tracking.reason = refusal(*frame.sensor);
   if (result.tracking.reason.empty()) {
+    searchAtExpected(*frame.sensor);
     const Pose start = view() == nullptr ? robot_.start_pose(frame.sensor->header) : Pose::Identity();
     result.tracking = session_->step(frame.sensor->rgbd, frame.texture, view(), timers, start);
     rendered_.reset();
@@ -45,6 +46,32 @@ LiveResult LiveTracker::track(const TexturedSensorFrame& frame, StageTimers& tim
     session_->lose();
   }
   return result;
+}
+
+void LiveTracker::expectAt(const Pose& T_map_base) {
+  const std::lock_guard<std::mutex> lock(expected_mutex_);
+  T_map_base_ = T_map_base;
+}
+
+void LiveTracker::searchAtExpected(const SensorFrame& frame) {
+  std::unique_lock<std::mutex> lock(expected_mutex_);
+  const std::optional<Pose> T_map_base = std::exchange(T_map_base_, std::nullopt);
+  lock.unlock();
+  if (T_map_base) session_->searchAt(*T_map_base * robot_.camera_on_base(frame.header.frame_id));
+}
+
+void LiveTracker::shareKeyframes() {
+  const Keyframes& keyframes = session_->keyframes();
+  const KeyframePtr last = keyframes.empty() ? nullptr : keyframes.back();
+  if (last == last_shared_) return;
+  last_shared_ = last;
+  if (const std::shared_ptr<SharedMap> map = map_->map.lock())
+    map->keepKeyframes(map_->map_generation, keyframes);
+}
+
+Keyframes LiveTracker::keyframesOf(const std::shared_ptr<const MapView>& view) const {
+  const std::shared_ptr<SharedMap> map = view == nullptr ? nullptr : view->map.lock();
+  return map == nullptr ? Keyframes() : map->keyframesOf(view->map_generation);
 }
 
 void LiveTracker::warnOfNoise() const {
@@ -68,7 +95,7 @@ void LiveTracker::send(const SensorFramePtr& frame, const TrackingResult& tracki
 TrackerStatus LiveTracker::statusOf(const SensorFrame& frame, const LiveResult& result) const {
   TrackerStatus status = makeTrackerStatus(frame.header, result.tracking);
   if (result.lost_for == kPaused) status.state = TrackerStatus::PAUSED;
-  status.keyframes = session_ == nullptr ? 0 : static_cast<uint32_t>(session_->keyframeCount());
+  status.keyframes = session_ == nullptr ? 0 : static_cast<uint32_t>(session_->keyframes().size());
   return status;
 }
 
@@ -91,14 +118,15 @@ void LiveTracker::makeSession(const CameraIntrinsics& camera) {
       [this](const Pose& T_W_D) -> const ModelView& { return render(T_W_D); });
   camera_ = camera;
   noise_was_judged_ = false;
-  session_->reset(viewPose());
+  session_->reset(viewPose(), keyframesOf(map_));
 }
 
 void LiveTracker::apply(const FusionNews& news) {
   switch (news.kind) {
     case FusionNews::kAccepted:
       map_ = news.view;
-      return session_->conclude(true);
+      session_->conclude(true);
+      return shareKeyframes();
     case FusionNews::kUnanswered:
       ROS_ERROR("no answer from tsdf_fusion to the last frame, which counts as lost");
       return session_->conclude(false);
@@ -129,7 +157,7 @@ std::string LiveTracker::refusal(const SensorFrame& frame) const {
 
 void LiveTracker::changeMap(const std::shared_ptr<const MapView>& map) {
   map_ = map;
-  if (session_ != nullptr) session_->reset(viewPose());  // one that is made later begins there
+  if (session_ != nullptr) session_->reset(viewPose(), keyframesOf(map));  // one that is made later does so
   robot_.forget_poses();
 }
 

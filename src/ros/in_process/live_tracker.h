@@ -6,6 +6,8 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 
 #include "depth_fusion/pipeline/tracking_session.h"
@@ -29,6 +31,7 @@ class LiveTracker {
   struct Robot {
     std::function<Pose(const std_msgs::Header& camera)> start_pose;  // of the frame that begins a map
     std::function<void()> forget_poses;                              // they are those of a map that is gone
+    std::function<Pose(const std::string& camera)> camera_on_base;   // T_base_camera of that frame
   };
 
   // `frames` is the topic icp_tracking/frame. Keeps a reference to the parameters, which may change between
@@ -39,6 +42,8 @@ class LiveTracker {
   // From any thread:
   FusionLink& fusion() { return fusion_; }
   void skip(const TexturedSensorFrame& frame) { skipped_.add(frame); }
+  // Somebody says where the robot's base is in the map: the sensor is searched for there.
+  void expectAt(const Pose& T_map_base);
 
   // From one thread:
   // Takes over parameters that have changed. Throws Error if they do not fit together.
@@ -75,6 +80,10 @@ class LiveTracker {
   // The pose of the view; the origin without one.
   Pose viewPose() const { return view() == nullptr ? Pose::Identity() : view()->T_W_D; }
   void warnOfNoise() const;
+  // Lets whoever saves the map have its keyframes.
+  void shareKeyframes();
+  Keyframes keyframesOf(const std::shared_ptr<const MapView>& map) const;
+  void searchAtExpected(const SensorFrame& frame);
   // The map as seen from anywhere, for relocalisation. Throws Error if it is gone.
   const ModelView& render(const Pose& T_W_D);
 
@@ -91,6 +100,9 @@ class LiveTracker {
   std::shared_ptr<const ModelView> rendered_;  // what render() returned last, while a frame is tracked
   uint32_t clock_jumps_ = 0;
   bool noise_was_judged_ = false;  // of the session's first frame
+  KeyframePtr last_shared_;
+  std::mutex expected_mutex_;
+  std::optional<Pose> T_map_base_;  // as somebody said, until the next frame
 };
 
 }  // namespace depth_fusion

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "depth_fusion/pipeline/stored_map.h"
+
 namespace depth_fusion {
 namespace {
 
@@ -34,6 +36,13 @@ void FusedMap::reset() {
   mapper_.reset();
 }
 
+LoadedMap FusedMap::load(Database& stored) {
+  checkFilterRule(describeMap(stored), parameters_, stored.name());
+  LoadedMap loaded = loadMap(stored, map_);
+  mapper_.reset();
+  return loaded;
+}
+
 Mapper& FusedMap::mapper(const CameraIntrinsics& camera) {
   if (mapper_ == nullptr || !sameCamera(camera, camera_)) {
     mapper_ = std::make_unique<Mapper>(compute_, map_, parameters_, camera);
@@ -45,6 +54,18 @@ Mapper& FusedMap::mapper(const CameraIntrinsics& camera) {
 void FusedMap::setParameters(const PipelineParameters& parameters) {
   if (mapper_ != nullptr) mapper_->setParameters(parameters);
   parameters_ = parameters;
+}
+
+Keyframes SharedMap::keyframesOf(uint32_t generation) const {
+  const std::lock_guard<std::mutex> lock(keyframes_mutex_);
+  return generation == keyframes_generation_ ? keyframes_ : Keyframes();
+}
+
+void SharedMap::keepKeyframes(uint32_t generation, const Keyframes& keyframes) {
+  const std::lock_guard<std::mutex> lock(keyframes_mutex_);
+  if (generation < keyframes_generation_) return;  // a tracker that has not heard of this map yet
+  keyframes_generation_ = generation;
+  keyframes_ = keyframes;
 }
 
 void offerMap(const std::string& name, const std::shared_ptr<SharedMap>& map) {

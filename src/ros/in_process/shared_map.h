@@ -6,6 +6,7 @@
 #include <string>
 
 #include "depth_fusion/pipeline/mapper.h"
+#include "depth_fusion/submaps/map_file.h"
 
 namespace depth_fusion {
 
@@ -24,6 +25,8 @@ class FusedMap {
   Mapper& mapper(const CameraIntrinsics& camera);
   // Empties the map; a new generation begins.
   void reset();
+  // Takes in a stored map in place of what there is. Throws Error, and changes nothing, as loadMap does.
+  LoadedMap load(Database& stored);
   // The parameters are for the frames to come; the map's stay. Throws Error for what cannot change.
   void setParameters(const PipelineParameters& parameters);
 
@@ -50,12 +53,20 @@ class SharedMap {
     return function(fused_);
   }
 
+  // The keyframes of the map of that generation, as its tracker had them last; none if it had none. Those of
+  // an older map than the last are not kept. Both may be called at any time.
+  Keyframes keyframesOf(uint32_t generation) const;
+  void keepKeyframes(uint32_t generation, const Keyframes& keyframes);
+
   const std::shared_ptr<ComputeContext> compute;
   const std::string frame_id;  // of the map's coordinates
 
  private:
   std::mutex mutex_;
   FusedMap fused_;
+  mutable std::mutex keyframes_mutex_;  // of the two that follow
+  uint32_t keyframes_generation_ = 0;
+  Keyframes keyframes_;
 };
 
 // Makes the map known by the resolved name of the nodelet that has it.

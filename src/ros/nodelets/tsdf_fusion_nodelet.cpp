@@ -1,5 +1,5 @@
-// TSDF fusion: frames with poses into the map, model views out of it; services to reset it and to stop and go
-// on.
+// TSDF fusion: frames with poses into the map, model views out of it; services to reset it, to stop and go
+// on, to save and load it.
 #include <depth_fusion/SetMode.h>
 #include <std_srvs/Trigger.h>
 
@@ -12,6 +12,7 @@
 #include "ros/input/posed_frame_subscriber.h"
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
+#include "ros/output/map_keeper.h"
 #include "ros/output/map_reporter.h"
 
 namespace depth_fusion {
@@ -28,6 +29,7 @@ class TsdfFusionNodelet : public StageNodelet {
   void subscribe();
   void applyParameters() override;
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
+  void greet();                             // tells a tracker that has come of the map
   void process(const TrackedFrame& frame);  // in the worker's thread
   bool serveReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool serveMode(SetMode::Request& request, SetMode::Response& response);
@@ -41,6 +43,7 @@ class TsdfFusionNodelet : public StageNodelet {
   ros::ServiceServer reset_server_, mode_server_;
   std::unique_ptr<Worker<WaitingFrame>> worker_;
   std::unique_ptr<PosedFrameSubscriber> posed_subscriber_;  // of frames with poses from elsewhere
+  std::unique_ptr<MapKeeper> keeper_;
 };
 
 TsdfFusionNodelet::~TsdfFusionNodelet() {
@@ -48,6 +51,7 @@ TsdfFusionNodelet::~TsdfFusionNodelet() {
   frame_subscriber_.shutdown();
   if (worker_ != nullptr) worker_->stop();
   posed_subscriber_.reset();
+  keeper_.reset();  // saves the map, to which nothing comes any more
 }
 
 void TsdfFusionNodelet::start() {
@@ -59,18 +63,23 @@ void TsdfFusionNodelet::start() {
   NODELET_INFO_STREAM("OpenCL device: " << map_->compute->selfTestReport());
   warmUp(*map_->compute, pipeline);
   advertise();
+  keeper_->loadAtStart();
   startReporting();
 }
 
 void TsdfFusionNodelet::advertise() {
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
-  reporter_ = std::make_unique<MapReporter>(map_, handle, kProcessQueue);
+  reporter_ = std::make_unique<MapReporter>(map_, handle, kProcessQueue, [this] { greet(); });
   worker_ = std::make_unique<Worker<WaitingFrame>>(
       parameters_.queue_size,
       [this](const WaitingFrame& waiting) {
         if (const TrackedFramePtr frame = waiting.take()) process(*frame);
       },
       [this](const WaitingFrame&) { counter_.drop(kTooSlow); });
+  keeper_ = std::make_unique<MapKeeper>(map_, *mapper_, parameters_.keeper, handle,
+                                        [this](const std::string& news, FusedMap& map) {
+                                          reporter_->announce(news, *mapper_, map, counter_.account());
+                                        });
   subscribe();
   reset_server_ = callbacks_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
       handle, "reset_volume",
@@ -101,6 +110,12 @@ void TsdfFusionNodelet::applyParameters() {
   map_->locked([this](FusedMap& map) {
     map.setParameters(parameters_.pipeline);
     mapper_->setParameters(parameters_.pipeline);
+  });
+}
+
+void TsdfFusionNodelet::greet() {
+  map_->locked([this](FusedMap& map) {
+    if (reporter_ != nullptr) reporter_->answer(std_msgs::Header(), {}, *mapper_, map);
   });
 }
 
@@ -154,6 +169,7 @@ bool TsdfFusionNodelet::serveMode(SetMode::Request& request, SetMode::Response& 
 
 void TsdfFusionNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   reporter_->diagnose(posed_subscriber_ ? posed_subscriber_->problem() : "", status);
+  keeper_->diagnose(status);
   status.add("queue", worker_->waiting());
   status.add("device", map_->compute->device().name);
 }

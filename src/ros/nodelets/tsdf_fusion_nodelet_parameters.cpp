@@ -17,7 +17,7 @@ ParameterTable TsdfFusionNodeletParameters::table() {
                          "external: frames that wait for their pose at most")),
       choice("on_clock_jump", &on_clock_jump, {"reset", "keep"},
              "external: what a clock that goes back does to the map")};
-  return joined({pipeline.tsdf_fusion.table(), rgbd.table(), own, picture.table()});
+  return joined({pipeline.tsdf_fusion.table(), rgbd.table(), own, keeper.table(), picture.table()});
 }
 
 std::vector<std::pair<std::string, ParameterTable>> TsdfFusionNodeletParameters::stages() {

@@ -7,6 +7,7 @@
 
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "ros/input/rgbd_parameters.h"
+#include "ros/output/map_keeper_parameters.h"
 #include "ros/output/model_picture_parameters.h"
 
 namespace depth_fusion {
@@ -21,6 +22,7 @@ struct TsdfFusionNodeletParameters {
   int tf_queue_size = 30;
   std::string on_clock_jump = "reset";
   ModelPictureParameters picture;
+  MapKeeperParameters keeper;
 
   // The nodelet's own rows.
   ParameterTable table();

@@ -8,9 +8,11 @@
 
 namespace depth_fusion {
 
-MapReporter::MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle& handle, uint32_t view_queue)
+MapReporter::MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle& handle, uint32_t view_queue,
+                         const std::function<void()>& greet)
     : map_(map),
-      view_publisher_(handle.advertise<MapViewMessage>("model_view", view_queue)),
+      view_publisher_(handle.advertise<MapViewMessage>(
+          "model_view", view_queue, [greet](const ros::SingleSubscriberPublisher&) { greet(); })),
       status_publisher_(handle.advertise<MapStatus>("status", 100, true)),
       picture_(handle) {}
 

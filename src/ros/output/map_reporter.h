@@ -5,6 +5,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -17,8 +18,10 @@ namespace depth_fusion {
 // Reports are made in SharedMap::locked; diagnose() may be called at any time.
 class MapReporter {
  public:
-  // Publishes in the nodelet's namespace; answers that wait to be taken are view_queue at most.
-  MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle& handle, uint32_t view_queue);
+  // Publishes in the nodelet's namespace; answers that wait to be taken are view_queue at most. A tracker
+  // that comes is to be told of the map: `greet` is called then.
+  MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle& handle, uint32_t view_queue,
+              const std::function<void()>& greet);
 
   bool hasViewers() const { return view_publisher_.getNumSubscribers() > 0 || picture_.hasViewers(); }
   // The answer to the tracker for the frame of that header.

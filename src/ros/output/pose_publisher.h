@@ -21,6 +21,7 @@ class PosePublisher {
 
   // As TransformSender has it.
   Pose startPose(const std_msgs::Header& camera) { return transforms_.startPose(camera); }
+  Pose cameraOnBase(const std::string& camera_frame) const { return transforms_.cameraOnBase(camera_frame); }
   void publish(const std_msgs::Header& camera, const Pose& T_map_camera, const Matrix6d& covariance);
   // Shows that text where the camera was last, until the next pose.
   void showSign(const std::string& text) { viewer_aids_.showSign(text); }

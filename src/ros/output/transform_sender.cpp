@@ -41,6 +41,15 @@ Pose TransformSender::startPose(const std_msgs::Header& camera) {
   return parameters_.level_start ? levelCamera() : Pose::Identity();
 }
 
+Pose TransformSender::cameraOnBase(const std::string& camera_frame) const {
+  for (const std::string& base :
+       {parameters_.base_frame, std::string("base_link"), std::string("base_footprint")}) {
+    if (base.empty()) continue;
+    if (const auto placed = tree_.newest(base, camera_frame)) return placed->T_frame_camera;
+  }
+  return levelCamera();
+}
+
 bool TransformSender::hasRoot() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return !root_.frame.empty();

@@ -30,6 +30,9 @@ class TransformSender {
   // without a tree, or one that tf does not connect with the given root, looks along x with z up (REP 103),
   // or is the origin itself without level_start. The first call waits until the tree no longer grows.
   Pose startPose(const std_msgs::Header& camera);
+  // Returns T_base_camera, of the robot's base: base_frame, or base_link or base_footprint where tf has one.
+  // A camera without a base looks along x with z up.
+  Pose cameraOnBase(const std::string& camera_frame) const;
   void take(const std_msgs::Header& camera, const Pose& T_map_camera);
   // Forgets the poses, which belong to another map.
   void reset();

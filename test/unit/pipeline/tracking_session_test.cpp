@@ -62,10 +62,10 @@ class FusedRoom {
       EXPECT_EQ(results.back().status, TrackingStatus::kTracking) << i << " " << results.back().reason;
       if (overlapped && i + 1 < kFrames) prepareAhead(i + 1);
       if (i != kNotFused) fuse(i, results.back().T_W_D);
-      const size_t keyframes = session_.keyframeCount();
+      const size_t keyframes = session_.keyframes().size();
       session_.conclude(i != kNotFused);
       const bool becomes_keyframe = with_texture_ && i != kNotFused;
-      EXPECT_EQ(session_.keyframeCount(), keyframes + (becomes_keyframe ? 1 : 0)) << i;
+      EXPECT_EQ(session_.keyframes().size(), keyframes + (becomes_keyframe ? 1 : 0)) << i;
     }
     return results;
   }

@@ -34,7 +34,7 @@ TEST(Relocaliser, KeepsOnlyFramesFarFromEachOther) {
   relocaliser.add(someFeatures(), at(0.21));
   relocaliser.add(someFeatures(), at(0.0, 0.26));
   ASSERT_EQ(relocaliser.keyframes().size(), 3u);
-  EXPECT_TRUE(relocaliser.keyframes()[0].features.smoothed_levels.empty()) << "too large to keep";
+  EXPECT_TRUE(relocaliser.keyframes()[0]->features.smoothed_levels.empty()) << "too large to keep";
   relocaliser.reset();
   EXPECT_TRUE(relocaliser.keyframes().empty());
 }
@@ -55,9 +55,9 @@ TEST(Relocaliser, DropsTheMostCrowdedWhenFull) {
   Relocaliser relocaliser(parameters);
   for (const double x_m : {0.0, 1.0, 1.25, 3.0}) relocaliser.add(someFeatures(), at(x_m));
   ASSERT_EQ(relocaliser.keyframes().size(), 3u);
-  EXPECT_EQ(relocaliser.keyframes()[0].T_W_D.translation().x(), 0.0);
-  EXPECT_EQ(relocaliser.keyframes()[1].T_W_D.translation().x(), 1.25);
-  EXPECT_EQ(relocaliser.keyframes()[2].T_W_D.translation().x(), 3.0);
+  EXPECT_EQ(relocaliser.keyframes()[0]->T_W_D.translation().x(), 0.0);
+  EXPECT_EQ(relocaliser.keyframes()[1]->T_W_D.translation().x(), 1.25);
+  EXPECT_EQ(relocaliser.keyframes()[2]->T_W_D.translation().x(), 3.0);
 }
 
 TEST(Relocaliser, FramesWithoutFeaturesAreNoKeyframesAndHaveNoCandidates) {
@@ -89,7 +89,7 @@ TEST(Relocaliser, KeyframesThatLookAlikeComeFirst) {
   }
   ASSERT_GE(relocaliser.keyframes().size(), 5u);
   for (size_t i = 0; i < between.size(); ++i) {
-    const std::vector<const Keyframe*> candidates = relocaliser.candidates(between[i]);
+    const Keyframes candidates = relocaliser.candidates(between[i]);
     ASSERT_EQ(candidates.size(), 3u);
     const TextureOdometryResult motion = odometry.match(candidates[0]->features, between[i], true);
     ASSERT_TRUE(motion.found) << i << " " << motion.reason;

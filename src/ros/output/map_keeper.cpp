@@ -1,0 +1,185 @@
+#include "ros/output/map_keeper.h"
+
+#include <ros/console.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "depth_fusion/common/error.h"
+#include "ros/output/mesh_export.h"
+
+namespace depth_fusion {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+std::string describe(const SaveReport& saved) {
+  return "saved to " + saved.place + ": " + std::to_string(saved.blocks) + " blocks, " +
+         std::to_string(saved.bytes) + " bytes";
+}
+
+std::string describe(const LoadedMap& loaded, const std::string& place, bool read_only) {
+  uint64_t blocks = 0;
+  for (const SubmapDescription& submap : loaded.description.submaps) blocks += submap.blocks;
+  return "loaded from " + place + ": " + std::to_string(blocks) + " blocks and " +
+         std::to_string(loaded.keyframes.size()) + " keyframes" +
+         (read_only ? ", to find poses in; it stays as it is" : "");
+}
+
+}  // namespace
+
+MapKeeper::MapKeeper(std::shared_ptr<SharedMap> map, FrameMapper& mapper,
+                     const MapKeeperParameters& parameters, ros::NodeHandle handle, Announce announce)
+    : map_(std::move(map)),
+      mapper_(mapper),
+      parameters_(parameters),
+      announce_(std::move(announce)),
+      spinner_(std::make_unique<ros::AsyncSpinner>(1, &queue_)) {
+  handle.setCallbackQueue(&queue_);
+  save_server_ = callbacks_.advertiseService<SaveMap::Request, SaveMap::Response>(
+      handle, "save_map", [this](auto& request, auto& response) { return serveSave(request, response); });
+  load_server_ = callbacks_.advertiseService<LoadMap::Request, LoadMap::Response>(
+      handle, "load_map", [this](auto& request, auto& response) { return serveLoad(request, response); });
+  if (!parameters_.map_file.empty() && parameters_.save_period_s > 0.0f && !parameters_.read_only)
+    timer_ = callbacks_.createWallTimer(handle, ros::WallDuration(parameters_.save_period_s),
+                                        [this](const ros::WallTimerEvent&) { saveKept(); });
+}
+
+MapKeeper::~MapKeeper() {
+  callbacks_.close();
+  spinner_->stop();
+  saveKept();
+}
+
+void MapKeeper::loadAtStart() {
+  if (!parameters_.map_file.empty()) {
+    const std::string place = placeOf("");
+    try {
+      if (const std::unique_ptr<Database> stored = openStoredMap(place)) {
+        load(place, *stored, parameters_.read_only);
+      } else {
+        check(!parameters_.read_only, "there is no map to find poses in");
+        checkPlace(place);
+        note("", "the map will be kept in " + parameters_.map_file);
+        kept_generation_ = map_->locked([](FusedMap& fused) { return fused.map().generation(); });
+      }
+    } catch (const std::exception& error) {
+      note(std::string("map_file: ") + error.what() + "; nothing is saved there", "");
+      ROS_ERROR_STREAM(problem_);
+    }
+  }
+  spinner_->start();
+}
+
+std::string MapKeeper::placeOf(const std::string& path) const {
+  const std::string& place = path.empty() ? parameters_.map_file : path;
+  check(!place.empty(), "path is empty, and ~map_file says no place either; give the name of a file");
+  return isOnServer(place) ? place : absolutePath(place);
+}
+
+SaveReport MapKeeper::save(const std::string& place) {
+  if (saver_ == nullptr || place != place_) {
+    saver_ = std::make_unique<MapSaver>(place);
+    place_ = place;
+  }
+  saver_->prepare();
+  uint32_t generation = 0;
+  map_->locked([&](FusedMap& fused) {
+    check(fused.map().slots().used() > 0, "the map is empty; nothing was saved");
+    generation = fused.map().generation();
+    saver_->capture(fused.map(), mapper_.describe(fused), map_->keyframesOf(generation));
+  });
+  const SaveReport saved = saver_->write();
+  if (!parameters_.map_file.empty() && place == placeOf("")) kept_generation_ = generation;
+  return saved;
+}
+
+LoadedMap MapKeeper::load(const std::string& place, Database& stored, bool read_only) {
+  auto saver = std::make_unique<MapSaver>(place);
+  LoadedMap loaded;
+  map_->locked([&](FusedMap& fused) {
+    loaded = mapper_.load(fused, stored, {ros::WallTime::now(), ros::Time::now()});
+    const uint32_t generation = fused.map().generation();
+    map_->keepKeyframes(generation, loaded.keyframes);
+    saver->adopt(fused.map(), loaded);
+    mapper_.admission().setMode(read_only ? MapMode::kLocalisation : MapMode::kMapping);
+    const bool is_kept = !read_only && !parameters_.map_file.empty() && place == placeOf("");
+    kept_generation_ = is_kept ? generation : 0;
+    const std::string news = describe(loaded, stored.name(), read_only);
+    note("", news);
+    announce_(news, fused);
+  });
+  saver_ = std::move(saver);
+  place_ = place;
+  return loaded;
+}
+
+void MapKeeper::saveKept() {
+  if (parameters_.map_file.empty() || parameters_.read_only) return;
+  try {
+    if (isKept()) note("", describe(save(placeOf(""))));
+  } catch (const std::exception& error) {
+    note(std::string("the map is not saved: ") + error.what(), "");
+    ROS_ERROR_STREAM_THROTTLE(60.0, problem_);
+  }
+}
+
+bool MapKeeper::isKept() {
+  const auto [generation, is_empty] = map_->locked([](FusedMap& fused) {
+    return std::make_pair(fused.map().generation(), fused.map().slots().used() == 0);
+  });
+  if (kept_generation_ != 0 && generation != kept_generation_) {
+    kept_generation_ = 0;
+    note("the map was emptied or replaced, and " + parameters_.map_file +
+             " keeps the one before; save_map with an empty path puts this one in its place",
+         "");
+    ROS_WARN_STREAM(problem_);
+  }
+  return kept_generation_ != 0 && !is_empty;
+}
+
+bool MapKeeper::serveSave(SaveMap::Request& request, SaveMap::Response& response) {
+  try {
+    const SaveReport saved = save(placeOf(request.path));
+    response.success = true;
+    response.message = describe(saved);
+    response.bytes = saved.bytes;
+    response.submaps = 1;
+    note("", response.message);
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+  ROS_INFO_STREAM(response.message);
+  return true;
+}
+
+bool MapKeeper::serveLoad(LoadMap::Request& request, LoadMap::Response& response) {
+  try {
+    const std::string place = placeOf(request.path);
+    const std::unique_ptr<Database> stored = openDatabase(place, DatabaseAccess::kRead);
+    const LoadedMap loaded = load(place, *stored, request.read_only);
+    response.success = true;
+    response.message = describe(loaded, stored->name(), request.read_only);
+    response.bytes = stored->bytes();
+    response.submaps = static_cast<uint32_t>(loaded.description.submaps.size());
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    ROS_ERROR_STREAM("load_map: " << error.what());
+  }
+  return true;
+}
+
+void MapKeeper::note(const std::string& problem, const std::string& news) {
+  const std::lock_guard<std::mutex> lock(status_mutex_);
+  problem_ = problem;
+  if (!news.empty()) news_ = news;
+}
+
+void MapKeeper::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(status_mutex_);
+  if (!problem_.empty()) status.mergeSummary(DiagnosticStatus::WARN, problem_);
+  status.add("map file", parameters_.map_file.empty() ? "none" : parameters_.map_file);
+  if (!news_.empty()) status.add("map file's last news", news_);
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,157 @@
+#include "store/lmdb_database.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "depth_fusion/common/error.h"
+#include "store/lmdb_damage.h"
+#include "store/lmdb_environment.h"
+
+namespace depth_fusion {
+namespace {
+
+namespace fs = std::filesystem;
+
+MDB_val valueOf(const std::string& bytes) { return {bytes.size(), const_cast<char*>(bytes.data())}; }
+
+std::string bytesOf(const MDB_val& value) { return {static_cast<const char*>(value.mv_data), value.mv_size}; }
+
+// An open file, which may be open once in a process.
+struct LmdbFile {
+  std::string path;
+  LmdbEnvironment environment;
+  MDB_dbi rows = 0;
+};
+using LmdbFilePtr = std::shared_ptr<const LmdbFile>;
+
+LmdbTransaction begin(const LmdbFile& file, unsigned flags) {
+  MDB_txn* transaction = nullptr;
+  checkLmdb(mdb_txn_begin(file.environment.get(), nullptr, flags, &transaction), file.path,
+            (flags & MDB_RDONLY) != 0 ? "cannot be read" : "cannot be written");
+  return LmdbTransaction(transaction);
+}
+
+// Reads for either kind of transaction.
+template <class Interface>
+class LmdbRows : public Interface {
+ public:
+  LmdbRows(LmdbFilePtr file, unsigned flags) : file_(std::move(file)), transaction_(begin(*file_, flags)) {}
+
+  std::optional<std::string> get(const std::string& key) override {
+    MDB_val name = valueOf(key), value;
+    const int code = mdb_get(transaction_.get(), file_->rows, &name, &value);
+    if (code == MDB_NOTFOUND) return std::nullopt;
+    checkLmdb(code, file_->path, "cannot be read");
+    return bytesOf(value);
+  }
+
+  void forEach(const std::string& prefix, const DatabaseReader::Visit& visit) override {
+    MDB_cursor* opened = nullptr;
+    checkLmdb(mdb_cursor_open(transaction_.get(), file_->rows, &opened), file_->path, "cannot be read");
+    const LmdbCursor cursor(opened);
+    MDB_val key = valueOf(prefix), value;
+    int code = mdb_cursor_get(opened, &key, &value, prefix.empty() ? MDB_FIRST : MDB_SET_RANGE);
+    for (; code == MDB_SUCCESS; code = mdb_cursor_get(opened, &key, &value, MDB_NEXT)) {
+      const std::string name = bytesOf(key);
+      if (name.compare(0, prefix.size(), prefix) != 0) return;
+      visit(name, bytesOf(value));
+    }
+    if (code != MDB_NOTFOUND) checkLmdb(code, file_->path, "cannot be read");
+  }
+
+ protected:
+  LmdbFilePtr file_;
+  LmdbTransaction transaction_;
+};
+
+class LmdbReader final : public LmdbRows<DatabaseReader> {
+ public:
+  explicit LmdbReader(const LmdbFilePtr& file) : LmdbRows(file, MDB_RDONLY) {}
+};
+
+class LmdbWriter final : public LmdbRows<DatabaseWriter> {
+ public:
+  explicit LmdbWriter(const LmdbFilePtr& file) : LmdbRows(file, 0) {}
+
+  void put(const std::string& key, const std::string& bytes) override {
+    MDB_val name = valueOf(key), value = valueOf(bytes);
+    checked(mdb_put(transaction_.get(), file_->rows, &name, &value, 0));
+  }
+  void erase(const std::string& key) override {
+    MDB_val name = valueOf(key);
+    const int code = mdb_del(transaction_.get(), file_->rows, &name, nullptr);
+    if (code != MDB_NOTFOUND) checked(code);
+  }
+  void clear() override { checked(mdb_drop(transaction_.get(), file_->rows, 0)); }
+  void commit() override { checked(mdb_txn_commit(transaction_.release())); }
+
+ private:
+  void checked(int code) const { checkLmdb(code, file_->path, "cannot be written"); }
+};
+
+class LmdbDatabase final : public Database {
+ public:
+  LmdbDatabase(LmdbFilePtr file, DatabaseAccess access) : file_(std::move(file)), access_(access) {}
+
+  std::unique_ptr<DatabaseReader> read() override { return std::make_unique<LmdbReader>(file_); }
+  std::unique_ptr<DatabaseWriter> write() override {
+    check(access_ == DatabaseAccess::kWrite, file_->path + " was opened for reading");
+    return std::make_unique<LmdbWriter>(file_);
+  }
+  uint64_t bytes() override { return fs::file_size(file_->path); }
+  std::string name() const override { return file_->path; }
+
+ private:
+  LmdbFilePtr file_;
+  DatabaseAccess access_;
+};
+
+bool canBeWritten(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  return access(folder.c_str(), W_OK) == 0 && (!fs::exists(path) || access(path.c_str(), W_OK) == 0);
+}
+
+// Without a lock file where none can be made: then nobody writes there.
+LmdbFilePtr openFile(const std::string& path) {
+  const bool writable = canBeWritten(path);
+  auto file = std::make_shared<LmdbFile>();
+  file->path = path;
+  file->environment = openEnvironment(path, writable ? 0 : MDB_RDONLY | MDB_NOLOCK);
+  const LmdbTransaction transaction = begin(*file, writable ? 0 : MDB_RDONLY);
+  checkLmdb(mdb_dbi_open(transaction.get(), nullptr, 0, &file->rows), path, "cannot be opened");
+  return file;
+}
+
+// The file as this process has it open, or opened now.
+LmdbFilePtr sharedFile(const std::string& path) {
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<const LmdbFile>> open_files;
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::weak_ptr<const LmdbFile>& known = open_files[path];
+  LmdbFilePtr file = known.lock();
+  if (file == nullptr) {
+    const std::string damage = fs::exists(path) ? lmdbDamage(path) : "";
+    check(damage.empty(), damage);
+    known = file = openFile(path);
+  }
+  return file;
+}
+
+}  // namespace
+
+void checkWritable(const std::string& path) {
+  check(canBeWritten(path), path + " cannot be written; choose a place that can");
+}
+
+std::unique_ptr<Database> openLmdb(const std::string& path, DatabaseAccess access) {
+  check(!fs::is_directory(path), path + " is a folder; give the name of a file");
+  check(access == DatabaseAccess::kWrite || fs::exists(path), "there is no map file " + path);
+  if (access == DatabaseAccess::kWrite) checkWritable(path);
+  return std::make_unique<LmdbDatabase>(sharedFile(fs::weakly_canonical(path).string()), access);
+}
+
+}  // namespace depth_fusion

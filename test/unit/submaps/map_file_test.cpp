@@ -1,0 +1,356 @@
+#include "depth_fusion/submaps/map_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <random>
+
+#include "submaps/row_keys.h"
+#include "support/changing_map.h"
+#include "support/expect_error.h"
+#include "support/postgres_server.h"
+#include "support/temporary_folder.h"
+#include "support/test_compute.h"
+
+namespace depth_fusion {
+namespace {
+
+SignedDistance sphere(const Eigen::Vector3d& centre, double radius) {
+  return [=](const Eigen::Vector3d& p) { return (p - centre).norm() - radius; };
+}
+
+MapParameters smallMap() {
+  MapParameters parameters;
+  parameters.voxel_size_m = 0.01f;
+  parameters.blocks_per_axis = 32;
+  parameters.pool_mib = 4;
+  return parameters;
+}
+
+MapDescription describing(BlockMap& map) {
+  MapDescription description;
+  MapParameters parameters = map.parameters();
+  for (const Parameter& row : withPrefix("map", parameters.table()))
+    description.parameters.emplace_back(row.name, valueText(row));
+  description.camera = {640, 480, 525.0, 525.0, 319.5, 239.5};
+  description.last_pose.T_W_D.translation() << 1.0, 2.0, 3.0;
+  return description;
+}
+
+KeyframePtr someKeyframe(double x) {
+  Keyframe keyframe;
+  keyframe.T_W_D.translation().x() = x;
+  keyframe.thumbnail = cv::Mat::zeros(kThumbnailHeight_px, kThumbnailWidth_px, CV_32FC1);
+  keyframe.features.camera = {640, 480, 525.0, 525.0, 319.5, 239.5};
+  return std::make_shared<const Keyframe>(keyframe);
+}
+
+SaveReport save(MapSaver& saver, BlockMap& map, const Keyframes& keyframes = {}) {
+  saver.prepare();
+  saver.capture(map, describing(map), keyframes);
+  return saver.write();
+}
+
+LoadedMap load(const std::string& location, BlockMap& map) {
+  return loadMap(*openDatabase(location, DatabaseAccess::kRead), map);
+}
+
+class MapFile : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  std::string path_ = folder_ / "ball.map";
+  BlockMap map_{compute(), smallMap()};
+  ChangingMap changing_{compute(), map_};
+};
+
+// Everything that a map is told by, its states included.
+void expectSame(BlockMap& a, BlockMap& b) {
+  EXPECT_TRUE(readMap(a) == readMap(b));
+  std::map<BlockKey, int> states[2];
+  for (int i = 0; i < 2; ++i) {
+    BlockMap& map = i == 0 ? a : b;
+    const std::vector<int> of_slots = map.blockStates().read<int>(map.slots().bound());
+    const std::vector<int> offsets = map.offsets().read<int>(map.window().blockCount());
+    for (const SlotTable::Block& block : map.slots().blocks()) {
+      states[i][keyOf(block.index)] = of_slots[block.slot];
+      EXPECT_EQ(offsets[map.window().address(block.index)], block.slot);
+    }
+  }
+  EXPECT_EQ(states[0], states[1]);
+}
+
+TEST_F(MapFile, AMapComesBackBitForBit) {
+  changing_.show(sphere({0.01, -0.02, 0.03}, 0.15));
+  std::vector<int> states(map_.slots().bound());
+  for (size_t i = 0; i < states.size(); ++i) states[i] = static_cast<int>(i % 512);
+  map_.blockStates().write(states);
+  MapSaver saver(path_);
+  const SaveReport report = save(saver, map_, {someKeyframe(1.0), someKeyframe(2.0)});
+  EXPECT_EQ(report.blocks, map_.slots().used());
+  EXPECT_EQ(report.blocks_written, report.blocks);
+  EXPECT_EQ(report.bytes, std::filesystem::file_size(path_));
+
+  BlockMap other(compute(), smallMap());
+  ChangingMap(compute(), other).show(sphere({0.0, 0.0, 0.0}, 0.05));  // is gone afterwards
+  const uint32_t generation = other.generation();
+  const LoadedMap loaded = load(path_, other);
+  expectSame(map_, other);
+  EXPECT_NE(other.generation(), generation);
+  EXPECT_EQ(other.window().origin, map_.window().origin);
+  ASSERT_EQ(loaded.keyframes.size(), 2u);
+  EXPECT_EQ(loaded.keyframes[1]->T_W_D.translation().x(), 2.0);
+  EXPECT_EQ(loaded.description.last_pose.T_W_D.translation().z(), 3.0);
+  ASSERT_EQ(loaded.description.submaps.size(), 1u);
+  EXPECT_EQ(loaded.description.submaps[0].blocks, map_.slots().used());
+}
+
+TEST_F(MapFile, LaterSavesWriteWhatHasChanged) {
+  MapSaver saver(path_);
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  const KeyframePtr kept = someKeyframe(1.0);
+  save(saver, map_, {kept, someKeyframe(2.0)});
+  EXPECT_EQ(save(saver, map_).blocks_written, 0u);
+  // A part of it moves away, another one comes.
+  changing_.show(sphere({0.02, 0.0, 0.0}, 0.13));
+  const SaveReport report = save(saver, map_, {kept, someKeyframe(3.0)});
+  EXPECT_GT(report.blocks_written, 0u);
+  BlockMap other(compute(), smallMap());
+  const LoadedMap loaded = load(path_, other);
+  expectSame(map_, other);
+  EXPECT_EQ(loaded.description.revision, 3u);
+  ASSERT_EQ(loaded.keyframes.size(), 2u);
+  EXPECT_EQ(loaded.keyframes[0]->T_W_D.translation().x(), 1.0);
+  EXPECT_EQ(loaded.keyframes[1]->T_W_D.translation().x(), 3.0);
+}
+
+TEST_F(MapFile, AMapThatWasEmptiedIsWrittenAnew) {
+  MapSaver saver(path_);
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  save(saver, map_, {someKeyframe(1.0)});
+  map_.reset(Eigen::Vector3d::Zero());
+  changing_.show(sphere({0.1, 0.0, 0.0}, 0.05));
+  save(saver, map_);
+  BlockMap other(compute(), smallMap());
+  EXPECT_TRUE(load(path_, other).keyframes.empty());
+  expectSame(map_, other);
+}
+
+TEST_F(MapFile, ALoadedMapGoesOn) {
+  {
+    MapSaver saver(path_);
+    changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+    save(saver, map_, {someKeyframe(1.0)});
+  }
+  BlockMap other(compute(), smallMap());
+  const LoadedMap loaded = load(path_, other);
+  MapSaver saver(path_);
+  saver.adopt(other, loaded);
+  EXPECT_EQ(save(saver, other, loaded.keyframes).blocks_written, 0u);
+  ChangingMap(compute(), other).show(sphere({0.0, 0.0, 0.0}, 0.14));
+  save(saver, other, loaded.keyframes);
+  BlockMap third(compute(), smallMap());
+  EXPECT_EQ(load(path_, third).keyframes.size(), 1u);
+  expectSame(other, third);
+}
+
+TEST_F(MapFile, WhatAnotherSaverWroteIsNotMixed) {
+  MapSaver mine(path_), theirs(path_);
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  save(mine, map_);
+  BlockMap other(compute(), smallMap());
+  ChangingMap(compute(), other).show(sphere({0.1, 0.1, 0.1}, 0.05));
+  save(theirs, other);
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.14));
+  EXPECT_EQ(save(mine, map_).blocks_written, map_.slots().used())
+      << "all of it, for the place has another map";
+  // It comes between the copy and the writing.
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.13));
+  mine.prepare();
+  mine.capture(map_, describing(map_), {});
+  save(theirs, other);
+  expectError([&] { mine.write(); }, {path_, "holds another map by now"});
+  save(mine, map_);
+  BlockMap third(compute(), smallMap());
+  load(path_, third);
+  expectSame(map_, third);
+}
+
+TEST_F(MapFile, AFailedSaveIsMadeUpFor) {
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  MapSaver saver(folder_ / "later/ball.map");
+  EXPECT_THROW(save(saver, map_), Error);
+  std::filesystem::create_directory(folder_ / "later");
+  save(saver, map_);
+  BlockMap other(compute(), smallMap());
+  load(folder_ / "later/ball.map", other);
+  expectSame(map_, other);
+}
+
+// No file of the process grows.
+class FullDisk {
+ public:
+  FullDisk() {
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &none);
+  }
+  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(MapFile, AFullDiskLosesNothing) {
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  MapSaver saver(path_);
+  save(saver, map_);
+  const MapContent stored = readMap(map_);
+  BlockMap other(compute(), smallMap());
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.14));
+  {
+    const FullDisk full;
+    expectError([&] { save(saver, map_); }, {path_, "cannot be written"});
+    load(path_, other);
+    EXPECT_TRUE(readMap(other) == stored);
+  }
+  changing_.show(sphere({0.0, 0.02, 0.0}, 0.13));
+  save(saver, map_);
+  load(path_, other);
+  expectSame(map_, other);
+}
+
+TEST_F(MapFile, MapsThatDoNotFitAreRefusedAndNothingIsLost) {
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  MapSaver saver(path_);
+  save(saver, map_);
+  const auto refuses = [&](MapParameters parameters, const std::vector<std::string>& words) {
+    BlockMap other(compute(), parameters);
+    ChangingMap(compute(), other).show(sphere({0.0, 0.0, 0.0}, 0.05));
+    const MapContent before = readMap(other);
+    expectError([&] { load(path_, other); }, words);
+    EXPECT_TRUE(readMap(other) == before);
+  };
+  MapParameters parameters = smallMap();
+  parameters.voxel_size_m = 0.02f;
+  refuses(parameters, {"ball.map", "map/voxel_size_m", "0.01", "0.02"});
+  parameters = smallMap();
+  parameters.block_size = 4;
+  refuses(parameters, {"map/block_size", "set it to 8"});
+  map_.insert({{10, 10, 10}, {-10, -10, -10}});
+  save(saver, map_);
+  parameters = smallMap();
+  parameters.blocks_per_axis = 16;
+  refuses(parameters, {"ball.map", "map/blocks_per_axis"});
+  std::vector<BlockIndex> many;
+  for (int i = 0; i < 1100; ++i) many.emplace_back(i % 16 - 8, i / 16 % 16 - 8, 5 + i / 256);
+  map_.insert(many);
+  save(saver, map_);
+  parameters = smallMap();
+  parameters.pool_mib = 1;
+  refuses(parameters, {"ball.map", std::to_string(map_.slots().used()) + " blocks", "map/pool_mib to 2"});
+}
+
+TEST_F(MapFile, AMapComesBackIntoAWindowOfAnotherSize) {
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  MapSaver saver(path_);
+  save(saver, map_);
+  MapParameters parameters = smallMap();
+  parameters.blocks_per_axis = 40;
+  BlockMap larger(compute(), parameters);
+  load(path_, larger);
+  expectSame(map_, larger);
+}
+
+TEST_F(MapFile, ColourComesBackAndMayBeLeftOut) {
+  MapParameters with_color = smallMap();
+  with_color.color = true;
+  BlockMap colored(compute(), with_color);
+  ChangingMap(compute(), colored).show(sphere({0.0, 0.0, 0.0}, 0.15));
+  std::vector<uint32_t> colors(512 * colored.slots().bound());
+  for (uint32_t i = 0; i < colors.size(); ++i) colors[i] = 2654435761u * i;
+  colored.layer(kColorLayer).write(colors);
+  MapSaver saver(path_);
+  save(saver, colored);
+  BlockMap same(compute(), with_color);
+  load(path_, same);
+  expectSame(colored, same);
+  std::map<BlockKey, std::vector<uint32_t>> contents[2];
+  for (BlockMap* map : {&colored, &same}) {
+    const auto all = map->layer(kColorLayer).read<uint32_t>(512 * map->slots().bound());
+    for (const SlotTable::Block& block : map->slots().blocks())
+      contents[map == &same][keyOf(block.index)] = {all.begin() + 512 * block.slot,
+                                                    all.begin() + 512 * (block.slot + 1)};
+  }
+  EXPECT_EQ(contents[0], contents[1]);
+  load(path_, map_);
+  expectSame(colored, map_);
+}
+
+TEST_F(MapFile, WhatIsDamagedIsNamedAndNothingIsLost) {
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  MapSaver saver(path_);
+  save(saver, map_, {someKeyframe(0.0)});
+  const auto database = openDatabase(path_, DatabaseAccess::kWrite);
+  std::map<std::string, std::string> rows;
+  database->read()->forEach("", [&](const auto& key, const auto& value) { rows[key] = value; });
+  const MapContent before = readMap(map_);
+  const auto put = [&](const std::string& key, const std::string& value) {
+    const auto writer = database->write();
+    writer->put(key, value);
+    writer->commit();
+  };
+  std::mt19937 random(1);
+  for (const auto& [key, value] : rows) {
+    std::string damaged = value;
+    damaged[random() % damaged.size()] ^= 4;
+    put(key, damaged);
+    expectError([&] { loadMap(*database, map_); }, {"ball.map", "row " + readable(key)});
+    put(key, value);
+  }
+  for (const auto& [key, value] : rows) {
+    if (key.rfind("keyframe", 0) == 0) continue;  // one less is no damage
+    const auto writer = database->write();
+    writer->erase(key);
+    writer->commit();
+    EXPECT_THROW(loadMap(*database, map_), Error) << readable(key);
+    put(key, value);
+  }
+  EXPECT_TRUE(readMap(map_) == before);
+}
+
+TEST_F(MapFile, WhatIsNoMapIsNotOverwritten) {
+  {
+    const auto writer = openDatabase(path_, DatabaseAccess::kWrite)->write();
+    writer->put("accounts", "1000");
+    writer->commit();
+  }
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  MapSaver saver(path_);
+  expectError([&] { save(saver, map_); }, {path_, "something else than a map"});
+  EXPECT_EQ(openDatabase(path_, DatabaseAccess::kRead)->read()->get("accounts"), "1000");
+}
+
+TEST(MapOnAServer, ItIsSavedAndLoadedThroughRestarts) {
+  if (PostgresServer::programs().empty()) GTEST_SKIP() << "no PostgreSQL server here";
+  PostgresServer server;
+  BlockMap map(compute(), smallMap());
+  ChangingMap changing(compute(), map);
+  changing.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  MapSaver saver(server.uri("ball"));
+  save(saver, map, {someKeyframe(1.0)});
+  server.stop();
+  changing.show(sphere({0.02, 0.0, 0.0}, 0.13));
+  expectError([&] { save(saver, map); }, {"#ball", "cannot be reached"});
+  server.start();
+  const SaveReport report = save(saver, map, {someKeyframe(1.0)});
+  EXPECT_LT(report.blocks_written, 2 * report.blocks);
+  BlockMap other(compute(), smallMap());
+  EXPECT_EQ(load(server.uri("ball"), other).keyframes.size(), 1u);
+  expectSame(map, other);
+}
+
+}  // namespace
+}  // namespace depth_fusion
