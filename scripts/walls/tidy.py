@@ -13,7 +13,7 @@ from walls.tree import Green, Result
 # Where all is clean; the others follow one by one (clang-tidy takes some ten seconds a file).
 ROOMS = ("common", "geometry", "compute", "frames", "map", "registration", "preprocessing", "texture_odometry", "tsdf_fusion",
          "color_fusion", "model_view", "icp_tracking", "relocalisation", "surface_mesh", "recording", "acquisition",
-         "pipeline")
+         "store", "submaps", "pipeline")
 PROBLEM = re.compile(r"^(\S+?:\d+):\d+: (?:warning|error): (.*)$", re.M)
 
 

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <set>
 
 #include "depth_fusion/common/error.h"

@@ -8,54 +8,14 @@
 #include <random>
 
 #include "submaps/row_keys.h"
-#include "support/changing_map.h"
 #include "support/expect_error.h"
 #include "support/postgres_server.h"
+#include "support/stored_maps.h"
 #include "support/temporary_folder.h"
 #include "support/test_compute.h"
 
 namespace depth_fusion {
 namespace {
-
-SignedDistance sphere(const Eigen::Vector3d& centre, double radius) {
-  return [=](const Eigen::Vector3d& p) { return (p - centre).norm() - radius; };
-}
-
-MapParameters smallMap() {
-  MapParameters parameters;
-  parameters.voxel_size_m = 0.01f;
-  parameters.blocks_per_axis = 32;
-  parameters.pool_mib = 4;
-  return parameters;
-}
-
-MapDescription describing(BlockMap& map) {
-  MapDescription description;
-  MapParameters parameters = map.parameters();
-  for (const Parameter& row : withPrefix("map", parameters.table()))
-    description.parameters.emplace_back(row.name, valueText(row));
-  description.camera = {640, 480, 525.0, 525.0, 319.5, 239.5};
-  description.last_pose.T_W_D.translation() << 1.0, 2.0, 3.0;
-  return description;
-}
-
-KeyframePtr someKeyframe(double x) {
-  Keyframe keyframe;
-  keyframe.T_W_D.translation().x() = x;
-  keyframe.thumbnail = cv::Mat::zeros(kThumbnailHeight_px, kThumbnailWidth_px, CV_32FC1);
-  keyframe.features.camera = {640, 480, 525.0, 525.0, 319.5, 239.5};
-  return std::make_shared<const Keyframe>(keyframe);
-}
-
-SaveReport save(MapSaver& saver, BlockMap& map, const Keyframes& keyframes = {}) {
-  saver.prepare();
-  saver.capture(map, describing(map), keyframes);
-  return saver.write();
-}
-
-LoadedMap load(const std::string& location, BlockMap& map) {
-  return loadMap(*openDatabase(location, DatabaseAccess::kRead), map);
-}
 
 class MapFile : public testing::Test {
  protected:
