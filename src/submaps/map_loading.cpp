@@ -102,17 +102,22 @@ std::vector<LayerContents> readLayers(Database& database, DatabaseReader& reader
   return layers;
 }
 
+// All at once, for the slots of an empty map follow each other.
 void fill(BlockMap& map, const std::vector<LayerContents>& layers) {
   const int block_size = map.parameters().block_size;
-  for (size_t i = 0; i < layers.front().groups.size(); ++i) {
-    const BlockGroup& first = layers.front().groups[i];
-    const std::vector<int> slots = map.insert(first.blocks);
-    for (const LayerContents& contents : layers)
-      writeSlots(map.layer(contents.layer.name), slots, contents.groups[i].voxels,
-                 contents.layer.bytesPerBlock(block_size));
-    std::string states(first.states.size() * sizeof(int), '\0');
-    std::memcpy(states.data(), first.states.data(), states.size());
-    writeSlots(map.blockStates(), slots, states, sizeof(int));
+  std::vector<BlockIndex> blocks;
+  std::vector<int> states;
+  for (const BlockGroup& group : layers.front().groups) {
+    blocks.insert(blocks.end(), group.blocks.begin(), group.blocks.end());
+    states.insert(states.end(), group.states.begin(), group.states.end());
+  }
+  const std::vector<int> slots = map.insert(blocks);
+  writeSlots(map.blockStates(), slots,
+             {reinterpret_cast<const char*>(states.data()), states.size() * sizeof(int)}, sizeof(int));
+  for (const LayerContents& contents : layers) {
+    std::string voxels;
+    for (const BlockGroup& group : contents.groups) voxels += group.voxels;
+    writeSlots(map.layer(contents.layer.name), slots, voxels, contents.layer.bytesPerBlock(block_size));
   }
 }
 
