@@ -1,7 +1,7 @@
 // Solids with an exact signed distance function, and the procedural textures on them.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 
 #include "depth_fusion/geometry/pose.h"
@@ -55,9 +55,15 @@ class Primitive {
 
   const Material& material() const { return material_; }
   void paint(const Material& material) { material_ = material; }
-  Eigen::Vector3d centre_W() const { return T_W_S_.translation(); }
-  // The radius of the sphere about centre_W() that holds the solid; infinite for rooms and planes.
-  double boundingRadius() const;
+  // Rounds the centre to 2^-20 m and moves it. Copies that are moved by different multiples of that are seen
+  // alike, bit for bit, from poses that are moved with them.
+  void moveOnGrid(const Eigen::Vector3d& by_W);
+  // A copy that stands elsewhere has the colours of the first if its texture and light are moved with it.
+  void moveLook(const Eigen::Vector3d& by_W) { look_from_W_ += by_W; }
+  // The origin of texture and light.
+  const Eigen::Vector3d& lookFrom_W() const { return look_from_W_; }
+  // A box that holds the solid; infinite for rooms and planes.
+  Eigen::AlignedBox3d boundingBox_W() const;
 
  private:
   struct Interval {
@@ -75,6 +81,7 @@ class Primitive {
   Eigen::Vector3d half_size_m_;
   Material material_;
   double rounding_m_;  // of a box's edges
+  Eigen::Vector3d look_from_W_ = Eigen::Vector3d::Zero();
 };
 
 // These are shorthands for building scenes. Positions and full sizes are in metres; `yaw_rad` turns about z.

@@ -43,8 +43,18 @@ const std::vector<SceneEntry>& sceneLibrary() {
        makeCylinderScene},
       {"white_room", "the room in one plain colour, without light and shade: geometry alone",
        makeWhiteRoomScene},
+      {"building", "corridors and 24 rooms over 60 x 30 m, two rooms exactly alike, Kinect-like sensor",
+       makeBuildingScene},
+      {"corridor", "a corridor of 100 m between two lobbies, walked there and back", makeCorridorScene},
+      {"white_corridor", "the corridor in one plain colour, without light and shade", makeWhiteCorridorScene},
   };
   return scenes;
+}
+
+SimulatedScene sceneWithWalks(std::vector<Primitive> solids, const std::vector<Walk>& walks) {
+  SimulatedScene scene{Scene(std::move(solids)), kinectSensor(), walks.front().path};
+  scene.walks = walks;
+  return scene;
 }
 
 SimulatedScene makeScene(const std::string& name) { return entryOf(name).make(); }

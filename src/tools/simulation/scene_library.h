@@ -8,6 +8,7 @@
 #include "tools/simulation/camera_path.h"
 #include "tools/simulation/scene.h"
 #include "tools/simulation/sensor_model.h"
+#include "tools/simulation/walk.h"
 
 namespace depth_fusion {
 
@@ -15,7 +16,8 @@ struct SimulatedScene {
   Scene surface;
   SensorModel sensor;
   GazePath path;
-  bool looks_around = false;  // the camera turns on its own account, not only as it walks
+  bool looks_around = false;     // the camera turns on its own account, not only as it walks
+  std::vector<Walk> walks = {};  // where there are several paths; the first of them is `path`
 };
 
 struct SceneEntry {

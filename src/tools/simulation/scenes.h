@@ -12,5 +12,11 @@ SimulatedScene makeSealScene();
 SimulatedScene makeWallScene();
 SimulatedScene makeFloorWallScene();
 SimulatedScene makeCylinderScene();
+SimulatedScene makeBuildingScene();
+SimulatedScene makeCorridorScene();
+SimulatedScene makeWhiteCorridorScene();
+
+// A scene seen by a Kinect-like sensor.
+SimulatedScene sceneWithWalks(std::vector<Primitive> solids, const std::vector<Walk>& walks);
 
 }  // namespace depth_fusion

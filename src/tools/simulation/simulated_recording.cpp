@@ -24,6 +24,17 @@ void checkOptions(const SimulationOptions& options, const SimulatedScene& scene)
   check(options.intrinsics.valid(), "the intrinsics of a simulated recording must be positive");
 }
 
+GazePath pathOf(const SimulatedScene& scene, const SimulationOptions& options) {
+  if (options.walk.empty()) return scene.path;
+  std::string names;
+  for (const Walk& walk : scene.walks) {
+    if (walk.name == options.walk) return walk.path;
+    names += (names.empty() ? "; its walks are " : ", ") + walk.name;
+  }
+  throw Error("scene '" + options.scene + "' has no walk '" + options.walk + "'" +
+              (names.empty() ? "; it has one path only" : names));
+}
+
 // Finds the speed at which the fastest moment of a recording has the given rate. A faster hand gets further
 // along the path, so that it may meet a faster part of it.
 double speedForPeak(const std::function<double(double)>& rate_at, double peak_rate, double duration_s) {
@@ -54,6 +65,7 @@ HandSpeed handSpeed(const SimulationOptions& options, const GazePath& path) {
 
 SimulatedRecording::SimulatedRecording(const SimulationOptions& options)
     : options_(options), scene_(makeScene(options.scene)) {
+  scene_.path = pathOf(scene_, options_);
   if (options_.intrinsics.width == 0) options_.intrinsics = scene_.sensor.camera;
   checkOptions(options_, scene_);
   hand_speed_ = handSpeed(options_, scene_.path);

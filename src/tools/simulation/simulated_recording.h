@@ -8,6 +8,7 @@ namespace depth_fusion {
 
 struct SimulationOptions {
   std::string scene = "room";
+  std::string walk;  // one of the scene's walks; empty: the first
   int frames = 300;
   bool noise = true;
   unsigned seed = 1;
