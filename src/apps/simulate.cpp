@@ -43,6 +43,8 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("-n,--frames", simulation.frames, "how many frames")->capture_default_str();
   app.add_flag("--noise,!--no-noise", simulation.noise,
                "the noise, quantisation and dropouts of the scene's sensor (default), or exact depth");
+  app.add_flag("--lifelike", simulation.lifelike,
+               "a rolling shutter, and colour with noise, automatic exposure and motion blur");
   app.add_option("--seed", simulation.seed, "another seed: another path of the hand and other noise")
       ->capture_default_str();
   app.add_option("--fps", simulation.fps, "frames per second")->capture_default_str();

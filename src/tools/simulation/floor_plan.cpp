@@ -39,9 +39,11 @@ class RoomBuilder {
     addSlab(kRoomHeight_m + kSlab_m / 2.0, plan_.finish.ceiling);
     for (int side = 0; side < 4; ++side) addWall(side);
     for (const Piece& piece : plan_.furniture) add(piece);
+    Pose T_L_W = Pose::Identity();
+    T_L_W.translation().head<2>() = -plan_.look_moved_by_m;
     for (Primitive& solid : solids_) {
       solid.moveOnGrid({centre_m_.x(), centre_m_.y(), 0.0});
-      solid.moveLook({plan_.look_moved_by_m.x(), plan_.look_moved_by_m.y(), 0.0});
+      solid.setLook(T_L_W);
     }
     return solids_;
   }

@@ -138,6 +138,12 @@ void Primitive::moveOnGrid(const Vector3d& by_W) {
   T_W_S_.translation() = by_W + kGrid_m * (T_W_S_.translation() / kGrid_m).array().round().matrix();
 }
 
+Primitive Primitive::moved(const Pose& T_W_moved) const {
+  Primitive copy(shape_, T_W_moved * T_W_S_, half_size_m_, material_, rounding_m_);
+  copy.T_L_W_ = T_L_W_ * T_W_moved.inverse();
+  return copy;
+}
+
 Eigen::AlignedBox3d Primitive::boundingBox_W() const {
   constexpr double kMargin_m = 1e-5;  // more than what is called a hit
   const bool endless = shape_ == Shape::kRoom || shape_ == Shape::kPlane;

@@ -2,6 +2,7 @@
 // scene_library.cpp.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@ struct SimulatedScene {
   Scene surface;
   SensorModel sensor;
   GazePath path;
-  bool looks_around = false;     // the camera turns on its own account, not only as it walks
+  bool looks_around = false;  // the camera turns on its own account, not only as it walks
+  // Returns solids that are seen, too, but are no part of the surface: what moves, mirrors, glass.
+  std::function<std::vector<Primitive>(const Pose& T_W_D, double time_s)> also_seen = {};
   std::vector<Walk> walks = {};  // where there are several paths; the first of them is `path`
 };
 

@@ -62,6 +62,8 @@ double speckles(const Vector3d& p) {
 
 double tiles(const Vector3d& p) { return 0.6 * cellValue(cellOf(p)) + 0.4 * cellValue(cellOf(3.0 * p)); }
 
+double repeated(const Vector3d& p) { return tiles(4.0 * (p - cellOf(p).cast<double>())); }
+
 double wood(const Vector3d& p) {
   const Vector3d along_grain(0.15 * p.x(), p.y(), p.z());
   return 0.7 * std::sin(9.0 * smoothNoise(along_grain)) + 0.4 * smoothNoise(6.0 * p);
@@ -94,6 +96,8 @@ double brightness(Pattern pattern, const Vector3d& p) {
       return tiles(p);
     case Pattern::kWood:
       return wood(p);
+    case Pattern::kRepeated:
+      return repeated(p);
     case Pattern::kMottle:
       return mottle(p);
   }
