@@ -14,18 +14,16 @@ constexpr double kFar_m = 30.0;  // of what has no depth
 constexpr double kMaxGain = 4.0;
 
 Vector3d bilinear(const cv::Mat& image, const Vector2d& at) {
-  const double u = std::clamp(at.x(), 0.0, image.cols - 1.001),
-               v = std::clamp(at.y(), 0.0, image.rows - 1.001);
+  const double u = std::clamp(at.x(), 0.0, image.cols - 1.001);
+  const double v = std::clamp(at.y(), 0.0, image.rows - 1.001);
   const int column = static_cast<int>(u), row = static_cast<int>(v);
   const double right = u - column, down = v - row;
-  Vector3d sum = Vector3d::Zero();
-  for (const auto& [du, dv, weight] :
-       {std::tuple(0, 0, (1 - right) * (1 - down)), std::tuple(1, 0, right * (1 - down)),
-        std::tuple(0, 1, (1 - right) * down), std::tuple(1, 1, right * down)}) {
-    const cv::Vec3b& level = image.at<cv::Vec3b>(row + dv, column + du);
-    sum += weight * Vector3d(level[0], level[1], level[2]);
-  }
-  return sum;
+  const auto level = [&](int below, int beside) {
+    const cv::Vec3b& bgr = image.at<cv::Vec3b>(row + below, column + beside);
+    return Vector3d(bgr[0], bgr[1], bgr[2]);
+  };
+  return (1.0 - down) * ((1.0 - right) * level(0, 0) + right * level(0, 1)) +
+         down * ((1.0 - right) * level(1, 0) + right * level(1, 1));
 }
 
 Vector2d project(const CameraIntrinsics& camera, const Vector3d& p_D) {

@@ -99,6 +99,15 @@ Solids personBefore(const Pose& T_W_D, double time_s) {
   return solids;
 }
 
+// The camera looks to and fro over one side of the room.
+Gaze oneSideGaze(const Sway& walk, const Sway& look) {
+  Gaze gaze;
+  gaze.eye_W = {0.3 * walk(0, 13.0), 0.3 * walk(1, 9.0), 1.55 + 0.1 * walk(2, 7.0)};
+  gaze.target_W = gaze.eye_W + direction((60.0 + 20.0 * look(3, 4.0)) * kRadPerDeg,
+                                         (-28.0 + 7.0 * look(4, 6.0)) * kRadPerDeg);
+  return gaze;
+}
+
 // Slides over the lens at 1 s and away again at 1.6 s.
 Solids handBefore(const Pose& T_W_D, double time_s) {
   if (time_s < 1.0 || time_s > 1.8) return {};
@@ -160,6 +169,8 @@ SimulatedScene makeAlikeScene() { return seenByVideo({Scene(alikeEverywhere()), 
 
 SimulatedScene makePersonScene() {
   SimulatedScene scene = seenByVideo(makeRoomScene());
+  scene.path = oneSideGaze;
+  scene.looks_around = false;
   scene.also_seen = personBefore;
   return scene;
 }
