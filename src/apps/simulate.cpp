@@ -23,6 +23,15 @@ std::string sceneHelp() {
   return help;
 }
 
+std::string walkHelp() {
+  std::string help = "which way, in a scene that has several; the first is taken unless said:";
+  for (const SceneEntry& entry : sceneLibrary()) {
+    for (const Walk& walk : entry.make().walks)
+      help += "\n  " + entry.name + ": " + walk.name + ", " + walk.help;
+  }
+  return help;
+}
+
 void addOptions(CLI::App& app, Arguments& arguments) {
   SimulationOptions& simulation = arguments.simulation;
   app.add_option(
@@ -30,9 +39,12 @@ void addOptions(CLI::App& app, Arguments& arguments) {
          "new folder (TUM layout: depth/, rgb/, groundtruth.txt, camera.yaml, scene.yaml), or FILE.bag")
       ->required();
   app.add_option("-s,--scene", simulation.scene, sceneHelp())->capture_default_str();
+  app.add_option("-w,--walk", simulation.walk, walkHelp());
   app.add_option("-n,--frames", simulation.frames, "how many frames")->capture_default_str();
   app.add_flag("--noise,!--no-noise", simulation.noise,
                "the noise, quantisation and dropouts of the scene's sensor (default), or exact depth");
+  app.add_flag("--lifelike", simulation.lifelike,
+               "a rolling shutter, and colour with noise, automatic exposure and motion blur");
   app.add_option("--seed", simulation.seed, "another seed: another path of the hand and other noise")
       ->capture_default_str();
   app.add_option("--fps", simulation.fps, "frames per second")->capture_default_str();

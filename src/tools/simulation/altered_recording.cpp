@@ -1,6 +1,7 @@
 #include "tools/simulation/altered_recording.h"
 
 #include <algorithm>
+#include <random>
 
 namespace depth_fusion {
 namespace {
@@ -24,6 +25,49 @@ class EveryNth : public Recording {
  private:
   std::unique_ptr<Recording> recording_;
   size_t n_;
+};
+
+class Irregular : public Recording {
+ public:
+  Irregular(std::unique_ptr<Recording> recording, size_t max_gap, unsigned seed)
+      : recording_(std::move(recording)), max_gap_(max_gap), random_(seed) {}
+
+  std::optional<RgbdFrame> next() override {
+    std::optional<RgbdFrame> frame = recording_->next();
+    for (size_t skipped = random_() % max_gap_; skipped > 0 && recording_->next(); --skipped) continue;
+    return frame;
+  }
+  size_t frameCount() const override { return 2 * recording_->frameCount() / (max_gap_ + 1); }
+  std::string description() const override { return recording_->description() + ", irregular"; }
+
+ private:
+  std::unique_ptr<Recording> recording_;
+  size_t max_gap_;
+  std::mt19937 random_;
+};
+
+class LightsOff : public Recording {
+ public:
+  LightsOff(std::unique_ptr<Recording> recording, size_t first, size_t count)
+      : recording_(std::move(recording)), first_(first), count_(count) {}
+
+  std::optional<RgbdFrame> next() override {
+    std::optional<RgbdFrame> frame = recording_->next();
+    if (frame && next_ >= first_ && next_ < first_ + count_) {
+      frame->color = cv::Mat::zeros(frame->color.size(), frame->color.type());
+    }
+    ++next_;
+    return frame;
+  }
+  size_t frameCount() const override { return recording_->frameCount(); }
+  std::string description() const override {
+    return recording_->description() + ", " + std::to_string(count_) + " frames in the dark";
+  }
+
+ private:
+  std::unique_ptr<Recording> recording_;
+  size_t first_, count_;
+  size_t next_ = 0;
 };
 
 class Interrupted : public Recording {
@@ -73,6 +117,14 @@ class Interrupted : public Recording {
 
 std::unique_ptr<Recording> everyNth(std::unique_ptr<Recording> recording, size_t n) {
   return std::make_unique<EveryNth>(std::move(recording), n);
+}
+
+std::unique_ptr<Recording> irregular(std::unique_ptr<Recording> recording, size_t max_gap, unsigned seed) {
+  return std::make_unique<Irregular>(std::move(recording), max_gap, seed);
+}
+
+std::unique_ptr<Recording> lightsOff(std::unique_ptr<Recording> recording, size_t first, size_t count) {
+  return std::make_unique<LightsOff>(std::move(recording), first, count);
 }
 
 std::unique_ptr<Recording> interrupted(const OpenRecording& open, const Interruption& interruption) {

@@ -14,6 +14,12 @@ using OpenRecording = std::function<std::unique_ptr<Recording>()>;
 // Gives the frames 0, n, 2n, ...
 std::unique_ptr<Recording> everyNth(std::unique_ptr<Recording> recording, size_t n);
 
+// Drops up to max_gap - 1 frames after each, by chance.
+std::unique_ptr<Recording> irregular(std::unique_ptr<Recording> recording, size_t max_gap, unsigned seed);
+
+// Makes `count` frames from the given one on black; their depth stays.
+std::unique_ptr<Recording> lightsOff(std::unique_ptr<Recording> recording, size_t first, size_t count);
+
 struct Interruption {
   size_t black_frames = 30;      // without depth and light, 1/30 s apart
   size_t repeated_frames = 100;  // from the recording's start

@@ -40,15 +40,15 @@ double Sway::operator()(int channel, double period_s) const {
          0.25 * std::sin(1.618 * angle + phase(seed_, 2 * channel + 1));
 }
 
-Pose handHeldPose(const GazePath& path, unsigned seed, const HandSpeed& speed, double time_s) {
+Pose handHeldPose(const GazePath& path, unsigned seed, const HandSpeed& speed, double time_s, double tremor) {
   const Sway sway(seed, time_s);
-  Vector6d tremor;
+  Vector6d twist;
   for (int i = 0; i < 6; ++i) {
-    tremor[i] =
-        (i < 3 ? kTremor_rad : kTremor_m) * sway(kTremorChannel + i, kTremorPeriod_s * (1.0 + 0.2 * i));
+    twist[i] = tremor * (i < 3 ? kTremor_rad : kTremor_m) *
+               sway(kTremorChannel + i, kTremorPeriod_s * (1.0 + 0.2 * i));
   }
   return lookAt(path(Sway(seed, speed.walk * time_s), Sway(seed, speed.look * time_s))) *
-         poseFromTwist(tremor);
+         poseFromTwist(twist);
 }
 
 Rates ratesAt(const GazePath& path, unsigned seed, double time_s) {

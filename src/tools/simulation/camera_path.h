@@ -38,8 +38,9 @@ struct HandSpeed {
 };
 
 // Returns the pose of a depth camera on the path, with a slight tremor of the hand, which speed leaves as it
-// is.
-Pose handHeldPose(const GazePath& path, unsigned seed, const HandSpeed& speed, double time_s);
+// is; `tremor` is a factor on it.
+Pose handHeldPose(const GazePath& path, unsigned seed, const HandSpeed& speed, double time_s,
+                  double tremor = 1.0);
 
 struct Rates {
   double linear_m_s = 0.0;

@@ -133,22 +133,23 @@ std::optional<double> Primitive::firstHit(const Vector3d& origin_W, const Vector
   return std::nullopt;
 }
 
-double Primitive::boundingRadius() const {
-  switch (shape_) {
-    case Shape::kBox:
-      return half_size_m_.norm();
-    case Shape::kSphere:
-      return half_size_m_.x();
-    case Shape::kCylinder:
-      return std::hypot(half_size_m_.x(), half_size_m_.z());
-    case Shape::kCapsule:
-    case Shape::kTorus:
-      return half_size_m_.x() + half_size_m_.z();
-    case Shape::kRoom:
-    case Shape::kPlane:
-      break;
-  }
-  return std::numeric_limits<double>::infinity();
+void Primitive::moveOnGrid(const Vector3d& by_W) {
+  constexpr double kGrid_m = 1.0 / (1 << 20);
+  T_W_S_.translation() = by_W + kGrid_m * (T_W_S_.translation() / kGrid_m).array().round().matrix();
+}
+
+Primitive Primitive::moved(const Pose& T_W_moved) const {
+  Primitive copy(shape_, T_W_moved * T_W_S_, half_size_m_, material_, rounding_m_);
+  copy.T_L_W_ = T_L_W_ * T_W_moved.inverse();
+  return copy;
+}
+
+Eigen::AlignedBox3d Primitive::boundingBox_W() const {
+  constexpr double kMargin_m = 1e-5;  // more than what is called a hit
+  const bool endless = shape_ == Shape::kRoom || shape_ == Shape::kPlane;
+  const Vector3d extent = endless ? Vector3d::Constant(std::numeric_limits<double>::infinity())
+                                  : Vector3d((T_W_S_.linear().cwiseAbs() * extentInS()).array() + kMargin_m);
+  return {T_W_S_.translation() - extent, T_W_S_.translation() + extent};
 }
 
 Primitive box(const Vector3d& centre_W, const Vector3d& size_m, const Material& material, double yaw_rad,

@@ -1,7 +1,7 @@
 // Solids with an exact signed distance function, and the procedural textures on them.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 
 #include "depth_fusion/geometry/pose.h"
@@ -13,7 +13,14 @@ enum class Pattern {
   kSpeckles,  // soft spots of several sizes
   kTiles,     // cells of random brightness: many corners
   kWood,      // grain along x
+  kRepeated,  // one cell of kTiles, again and again
   kMottle,    // spots of every size down to scale / 16, no two places alike: corners everywhere
+};
+
+enum class Optics {
+  kOpaque,
+  kMirror,  // shows what it reflects, as far away as the light has come
+  kGlass,   // shows what is behind it; seen aslant, without depth
 };
 
 struct Material {
@@ -22,6 +29,7 @@ struct Material {
   double scale_m = 0.1;   // size of the pattern's largest feature
   double contrast = 0.5;  // 0: plain; 1: from black to twice the mean
   bool shaded = true;     // false: as bright on every side
+  Optics optics = Optics::kOpaque;
 };
 
 // Returns the colour at a point (B, G, R in 0..255); the texture fills space, and a surface cuts through it.
@@ -55,9 +63,17 @@ class Primitive {
 
   const Material& material() const { return material_; }
   void paint(const Material& material) { material_ = material; }
-  Eigen::Vector3d centre_W() const { return T_W_S_.translation(); }
-  // The radius of the sphere about centre_W() that holds the solid; infinite for rooms and planes.
-  double boundingRadius() const;
+  // Rounds the centre to 2^-20 m and moves it. Copies that are moved by different multiples of that are seen
+  // alike, bit for bit, from poses that are moved with them.
+  void moveOnGrid(const Eigen::Vector3d& by_W);
+  // Texture and light are those of a world L, W unless said. A copy that stands elsewhere has the colours of
+  // the first if its L is moved with it.
+  void setLook(const Pose& T_L_W) { T_L_W_ = T_L_W; }
+  const Pose& T_L_W() const { return T_L_W_; }
+  // Returns a copy that is moved together with its L.
+  Primitive moved(const Pose& T_W_moved) const;
+  // A box that holds the solid; infinite for rooms and planes.
+  Eigen::AlignedBox3d boundingBox_W() const;
 
  private:
   struct Interval {
@@ -75,6 +91,7 @@ class Primitive {
   Eigen::Vector3d half_size_m_;
   Material material_;
   double rounding_m_;  // of a box's edges
+  Pose T_L_W_ = Pose::Identity();
 };
 
 // These are shorthands for building scenes. Positions and full sizes are in metres; `yaw_rad` turns about z.

@@ -43,8 +43,29 @@ const std::vector<SceneEntry>& sceneLibrary() {
        makeCylinderScene},
       {"white_room", "the room in one plain colour, without light and shade: geometry alone",
        makeWhiteRoomScene},
+      {"building", "corridors and 24 rooms over 60 x 30 m, two rooms exactly alike, Kinect-like sensor",
+       makeBuildingScene},
+      {"corridor", "a corridor of 100 m between two lobbies, walked there and back", makeCorridorScene},
+      {"white_corridor", "the corridor in one plain colour, without light and shade", makeWhiteCorridorScene},
+      {"alike", "a room of 8 x 6 m whose lamps, shelves and tiles are the same again and again",
+       makeAlikeScene},
+      {"person", "the room, and from 1 to 4 s somebody before the camera, wherever it looks",
+       makePersonScene},
+      {"hand", "the room, and a hand over the lens from 1 to 1.8 s", makeHandScene},
+      {"turntable", "the room from one place, and things that turn on its table", makeTurntableScene},
+      {"mirror", "the room with a mirror on a wall", makeMirrorScene},
+      {"glass", "the room, a part of it behind glass", makeGlassScene},
+      {"backing", "the room from 0.3 m before its wall, moving back", makeBackingScene},
+      {"shaken", "the room, shaken at up to 120 deg/s after the first second, with a rolling shutter",
+       makeShakenScene},
   };
   return scenes;
+}
+
+SimulatedScene sceneWithWalks(std::vector<Primitive> solids, const std::vector<Walk>& walks) {
+  SimulatedScene scene{Scene(std::move(solids)), kinectSensor(), walks.front().path};
+  scene.walks = walks;
+  return scene;
 }
 
 SimulatedScene makeScene(const std::string& name) { return entryOf(name).make(); }

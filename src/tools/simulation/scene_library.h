@@ -2,12 +2,14 @@
 // scene_library.cpp.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "tools/simulation/camera_path.h"
 #include "tools/simulation/scene.h"
 #include "tools/simulation/sensor_model.h"
+#include "tools/simulation/walk.h"
 
 namespace depth_fusion {
 
@@ -16,6 +18,9 @@ struct SimulatedScene {
   SensorModel sensor;
   GazePath path;
   bool looks_around = false;  // the camera turns on its own account, not only as it walks
+  // Returns solids that are seen, too, but are no part of the surface: what moves, mirrors, glass.
+  std::function<std::vector<Primitive>(const Pose& T_W_D, double time_s)> also_seen = {};
+  std::vector<Walk> walks = {};  // where there are several paths; the first of them is `path`
 };
 
 struct SceneEntry {

@@ -12,5 +12,19 @@ SimulatedScene makeSealScene();
 SimulatedScene makeWallScene();
 SimulatedScene makeFloorWallScene();
 SimulatedScene makeCylinderScene();
+SimulatedScene makeBuildingScene();
+SimulatedScene makeCorridorScene();
+SimulatedScene makeWhiteCorridorScene();
+SimulatedScene makeAlikeScene();
+SimulatedScene makePersonScene();
+SimulatedScene makeHandScene();
+SimulatedScene makeTurntableScene();
+SimulatedScene makeMirrorScene();
+SimulatedScene makeGlassScene();
+SimulatedScene makeBackingScene();
+SimulatedScene makeShakenScene();
+
+// A scene seen by a Kinect-like sensor.
+SimulatedScene sceneWithWalks(std::vector<Primitive> solids, const std::vector<Walk>& walks);
 
 }  // namespace depth_fusion

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "tools/simulation/renderer.h"
+#include "tools/simulation/color_model.h"
 
 namespace depth_fusion {
 
@@ -23,6 +23,8 @@ struct SensorModel {
   double edge_step = 0.03;         // a step of this fraction of the depth between neighbours is an edge
   double edge_dropout = 0.0;       // probability that a pixel at a depth edge has no depth
   double grazing_cos = 0.0;        // rays flatter than this lose depth, the likelier the flatter
+  double readout_s = 0.0;          // rolling shutter, of depth and colour: the last row is read at the stamp
+  ColorModel color;
 
   double axialSigma(double z_m) const {
     return sigma_base_m + sigma_growth_per_m * (z_m - sigma_from_m) * (z_m - sigma_from_m);

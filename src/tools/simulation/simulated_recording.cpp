@@ -8,8 +8,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kFirstStamp_s = 1.0;  // ROS does not record a time of zero
-
+constexpr double kReadout_s = 0.03;
 constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 
 void checkOptions(const SimulationOptions& options, const SimulatedScene& scene) {
@@ -21,7 +20,19 @@ void checkOptions(const SimulationOptions& options, const SimulatedScene& scene)
   check(options.turn_rate_deg_s == 0.0 || scene.looks_around,
         "scene '" + options.scene +
             "' has no turn rate of its own: its camera turns as it walks; set the linear speed instead");
+  check(options.tremor >= 0.0, "the tremor of a simulated recording must not be negative");
   check(options.intrinsics.valid(), "the intrinsics of a simulated recording must be positive");
+}
+
+GazePath pathOf(const SimulatedScene& scene, const SimulationOptions& options) {
+  if (options.walk.empty()) return scene.path;
+  std::string names;
+  for (const Walk& walk : scene.walks) {
+    if (walk.name == options.walk) return walk.path;
+    names += (names.empty() ? "; its walks are " : ", ") + walk.name;
+  }
+  throw Error("scene '" + options.scene + "' has no walk '" + options.walk + "'" +
+              (names.empty() ? "; it has one path only" : names));
 }
 
 // Finds the speed at which the fastest moment of a recording has the given rate. A faster hand gets further
@@ -54,20 +65,41 @@ HandSpeed handSpeed(const SimulationOptions& options, const GazePath& path) {
 
 SimulatedRecording::SimulatedRecording(const SimulationOptions& options)
     : options_(options), scene_(makeScene(options.scene)) {
+  scene_.path = pathOf(scene_, options_);
+  if (options_.lifelike) {
+    scene_.sensor.readout_s = kReadout_s;
+    scene_.sensor.color = videoCamera();
+  }
   if (options_.intrinsics.width == 0) options_.intrinsics = scene_.sensor.camera;
   checkOptions(options_, scene_);
   hand_speed_ = handSpeed(options_, scene_.path);
 }
 
-StampedPose SimulatedRecording::poseOf(int frame) const {
-  const double time_s = frame / options_.fps;
-  return {kFirstStamp_s + time_s, handHeldPose(scene_.path, options_.seed, hand_speed_, time_s)};
+Pose SimulatedRecording::poseAt(double time_s) const {
+  return handHeldPose(scene_.path, options_.seed, hand_speed_, time_s, options_.tremor);
+}
+
+RenderedView SimulatedRecording::viewAt(double time_s) const {
+  std::vector<Primitive> solids;
+  if (scene_.also_seen) {
+    solids = scene_.also_seen(poseAt(time_s), time_s);
+    solids.insert(solids.end(), scene_.surface.primitives().begin(), scene_.surface.primitives().end());
+  }
+  const std::optional<Scene> more = solids.empty() ? std::nullopt : std::optional<Scene>(Scene(solids));
+  const Scene& scene = more ? *more : scene_.surface;
+  const CameraIntrinsics& camera = options_.intrinsics;
+  const double readout_s = scene_.sensor.readout_s;
+  if (readout_s <= 0.0) return render(scene, camera, poseAt(time_s));
+  return renderRows(scene, camera, [&](int row) {
+    return poseAt(time_s + readout_s * ((row + 0.5) / camera.height - 1.0));
+  });
 }
 
 std::optional<RgbdFrame> SimulatedRecording::next() {
   if (next_frame_ >= options_.frames) return std::nullopt;
   const StampedPose pose = poseOf(next_frame_);
-  const RenderedView view = render(scene_.surface, options_.intrinsics, pose.T_W_D);
+  const double time_s = next_frame_ / options_.fps, exposure_s = scene_.sensor.color.exposure_s;
+  const RenderedView view = viewAt(time_s);
   const uint64_t noise_seed = static_cast<uint64_t>(options_.seed) << 32 | static_cast<uint32_t>(next_frame_);
   ++next_frame_;
 
@@ -75,7 +107,9 @@ std::optional<RgbdFrame> SimulatedRecording::next() {
   frame.stamp_s = pose.stamp_s;
   frame.depth =
       options_.noise ? senseDepth(view, scene_.sensor, noise_seed) : idealDepth(view, scene_.sensor);
-  frame.color = view.color;
+  const ExposureMotion motion{poseAt(time_s - exposure_s / 2.0).inverse() * pose.T_W_D,
+                              poseAt(time_s + exposure_s / 2.0).inverse() * pose.T_W_D};
+  frame.color = senseColor(view, scene_.sensor.color, options_.intrinsics, motion, noise_seed);
   frame.intrinsics = options_.intrinsics;
   frame.T_W_D = pose.T_W_D;
   return frame;

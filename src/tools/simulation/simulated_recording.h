@@ -8,8 +8,11 @@ namespace depth_fusion {
 
 struct SimulationOptions {
   std::string scene = "room";
+  std::string walk;  // one of the scene's walks; empty: the first
   int frames = 300;
   bool noise = true;
+  bool lifelike = false;  // rolling shutter, and a colour camera with noise, exposure and motion blur
+  double tremor = 1.0;    // of the hand, times its own
   unsigned seed = 1;
   double fps = 30.0;
   double speed = 1.0;  // times the scene's own
@@ -31,10 +34,18 @@ class SimulatedRecording : public Recording {
   std::string description() const override;
 
   const SimulatedScene& scene() const { return scene_; }
-  StampedPose poseOf(int frame) const;
+  StampedPose poseOf(int frame) const {
+    return {kFirstStamp_s + frame / options_.fps, poseAt(frame / options_.fps)};
+  }
   const CameraIntrinsics& intrinsics() const { return options_.intrinsics; }
 
  private:
+  static constexpr double kFirstStamp_s = 1.0;  // ROS does not record a time of zero
+
+  Pose poseAt(double time_s) const;
+  // Renders what is read until the time.
+  RenderedView viewAt(double time_s) const;
+
   SimulationOptions options_;
   SimulatedScene scene_;
   HandSpeed hand_speed_;

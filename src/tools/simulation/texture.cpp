@@ -11,32 +11,47 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-// Returns a value in [-1, 1] for a lattice cell (PCG hash).
-double cellValue(const Vector3i& cell) {
-  uint32_t hash = static_cast<uint32_t>(cell.x()) * 73856093u ^ static_cast<uint32_t>(cell.y()) * 19349663u ^
-                  static_cast<uint32_t>(cell.z()) * 83492791u;
-  hash = hash * 747796405u + 2891336453u;
+// A lattice cell's coordinates are multiplied by these and joined.
+constexpr uint32_t kFactors[3] = {73856093u, 19349663u, 83492791u};
+
+// Returns a value in [-1, 1] for joined coordinates (PCG hash).
+double hashed(uint32_t joined) {
+  uint32_t hash = joined * 747796405u + 2891336453u;
   hash = ((hash >> ((hash >> 28) + 4)) ^ hash) * 277803737u;
   hash ^= hash >> 22;
   return hash * (2.0 / 4294967295.0) - 1.0;
 }
 
-Vector3i cellOf(const Vector3d& p) {
-  return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())),
-          static_cast<int>(std::floor(p.z()))};
+double cellValue(const Vector3i& cell) {
+  uint32_t joined = 0;
+  for (int axis = 0; axis < 3; ++axis) joined ^= static_cast<uint32_t>(cell[axis]) * kFactors[axis];
+  return hashed(joined);
 }
+
+int floored(double value) {
+  const int truncated = static_cast<int>(value);
+  return truncated - (value < truncated ? 1 : 0);
+}
+
+Vector3i cellOf(const Vector3d& p) { return {floored(p.x()), floored(p.y()), floored(p.z())}; }
 
 // Joins lattice values smoothly (trilinear with eased fractions).
 double smoothNoise(const Vector3d& p) {
-  const Vector3i cell = cellOf(p);
-  const Vector3d fraction = p - cell.cast<double>();
-  const Vector3d ease = fraction.array().square() * (3.0 - 2.0 * fraction.array());
+  uint32_t factor[3][2];
+  double weight[3][2];
+  for (int axis = 0; axis < 3; ++axis) {
+    const int cell = floored(p[axis]);
+    const double fraction = p[axis] - cell;
+    const double ease = fraction * fraction * (3.0 - 2.0 * fraction);
+    weight[axis][0] = 1.0 - ease;
+    weight[axis][1] = ease;
+    factor[axis][0] = static_cast<uint32_t>(cell) * kFactors[axis];
+    factor[axis][1] = factor[axis][0] + kFactors[axis];
+  }
   double value = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vector3i offset(corner & 1, (corner >> 1) & 1, corner >> 2);
-    double weight = 1.0;
-    for (int axis = 0; axis < 3; ++axis) weight *= offset[axis] ? ease[axis] : 1.0 - ease[axis];
-    value += weight * cellValue(cell + offset);
+    const int x = corner & 1, y = (corner >> 1) & 1, z = corner >> 2;
+    value += weight[0][x] * weight[1][y] * weight[2][z] * hashed(factor[0][x] ^ factor[1][y] ^ factor[2][z]);
   }
   return value;
 }
@@ -46,6 +61,8 @@ double speckles(const Vector3d& p) {
 }
 
 double tiles(const Vector3d& p) { return 0.6 * cellValue(cellOf(p)) + 0.4 * cellValue(cellOf(3.0 * p)); }
+
+double repeated(const Vector3d& p) { return tiles(4.0 * (p - cellOf(p).cast<double>())); }
 
 double wood(const Vector3d& p) {
   const Vector3d along_grain(0.15 * p.x(), p.y(), p.z());
@@ -79,6 +96,8 @@ double brightness(Pattern pattern, const Vector3d& p) {
       return tiles(p);
     case Pattern::kWood:
       return wood(p);
+    case Pattern::kRepeated:
+      return repeated(p);
     case Pattern::kMottle:
       return mottle(p);
   }

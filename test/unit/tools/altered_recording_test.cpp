@@ -29,6 +29,27 @@ TEST(AlteredRecording, EveryThirdFrame) {
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(thirds[i].stamp_s, all[3 * i].stamp_s);
 }
 
+TEST(AlteredRecording, IrregularFramesAreSomeOfThoseThereAre) {
+  const auto all = framesOf(*room());
+  const auto frames = framesOf(*irregular(room(), 3, 1));
+  ASSERT_GE(frames.size(), 3u);
+  EXPECT_LT(frames.size(), 7u);
+  EXPECT_EQ(frames.front().stamp_s, all.front().stamp_s);
+  for (size_t i = 1; i < frames.size(); ++i) {
+    EXPECT_LT(frames[i].stamp_s - frames[i - 1].stamp_s, 3.1 / 30.0);
+  }
+}
+
+TEST(AlteredRecording, LightsOffLeavesDepth) {
+  const auto all = framesOf(*room());
+  const auto frames = framesOf(*lightsOff(room(), 2, 3));
+  ASSERT_EQ(frames.size(), 7u);
+  for (size_t i = 0; i < 7; ++i) {
+    EXPECT_EQ(cv::norm(frames[i].depth, all[i].depth), 0.0);
+    EXPECT_EQ(cv::norm(frames[i].color) > 0.0, i < 2 || i > 4) << i;
+  }
+}
+
 TEST(AlteredRecording, BlackFramesThenTheStart) {
   const auto all = framesOf(*room());
   const auto recording = interrupted(room, {2, 3});

@@ -196,7 +196,7 @@ TEST_P(SceneTest, TheSameSeedGivesTheSameBits) {
 TEST_P(SceneTest, AnotherSeedOrFrameGivesOtherNoise) {
   SimulatedRecording simulated = recording();
   const SimulatedScene& scene = simulated.scene();
-  const RenderedView view = render(scene.surface, simulated.intrinsics(), simulated.poseOf(0).T_W_D);
+  const RenderedView view = render(scene.surface, simulated.intrinsics(), simulated.poseOf(60).T_W_D);
   EXPECT_GT(cv::norm(senseDepth(view, scene.sensor, 1), senseDepth(view, scene.sensor, 2), cv::NORM_INF),
             0.0);
 }

@@ -1,0 +1,215 @@
+// What defeats other trackers: no frame that is called tracking may be wrong by 5 cm or 3 degrees, frames are
+// lost only where the input says nothing, and the sensor is found again after.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "depth_fusion/pipeline/reconstruction_pipeline.h"
+#include "support/test_compute.h"
+#include "tools/evaluation/trajectory_error.h"
+#include "tools/simulation/altered_recording.h"
+#include "tools/simulation/simulated_recording.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr double kWrong_m = 0.05;
+constexpr double kDegPerRad = 180.0 / 3.141592653589793;
+constexpr double kWrong_deg = 3.0;
+
+struct Outcome {
+  size_t frames = 0;
+  std::vector<size_t> lost, degenerate;
+  std::vector<size_t> wrong;                  // called tracking
+  double largest_m = 0.0, largest_deg = 0.0;  // of those called tracking
+  std::vector<double> error_m;                // of each frame that is not lost
+  std::string first_reason;                   // to be lost
+  std::vector<size_t> blocks_after;           // each frame
+
+  // How many of the frames [begin, end) are lost.
+  size_t lostAmong(size_t begin, size_t end) const {
+    return std::count_if(lost.begin(), lost.end(), [=](size_t i) { return i >= begin && i < end; });
+  }
+};
+
+void print(const char* what, const std::vector<size_t>& frames) {
+  std::printf(", %zu %s", frames.size(), what);
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const bool first = i == 0 || frames[i - 1] + 1 != frames[i];
+    const bool last = i + 1 == frames.size() || frames[i] + 1 != frames[i + 1];
+    if (first) std::printf(" %zu", frames[i]);
+    if (last && !first) std::printf("-%zu", frames[i]);
+  }
+}
+
+// Tracks a recording with exact poses. A pose is as wrong as the motion since the first one.
+Outcome track(Recording& recording, const PipelineParameters& parameters = {}) {
+  Outcome outcome;
+  std::unique_ptr<ReconstructionPipeline> pipeline;
+  std::optional<PosePair> first;
+  while (const std::optional<RgbdFrame> frame = recording.next()) {
+    if (!pipeline) {
+      pipeline = std::make_unique<ReconstructionPipeline>(compute(), parameters, frame->intrinsics);
+    }
+    const TrackingResult tracking = pipeline->processFrame(*frame).tracking;
+    const size_t i = outcome.frames++;
+    outcome.blocks_after.push_back(pipeline->map().usage().blocks);
+    if (tracking.status == TrackingStatus::kLost) {
+      if (outcome.lost.empty()) outcome.first_reason = tracking.reason;
+      outcome.lost.push_back(i);
+      continue;
+    }
+    const PosePair pair{frame->stamp_s, tracking.T_W_D, *frame->T_W_D};
+    if (!first) first = pair;
+    const Pose error = motionError(*first, pair);
+    const double error_m = error.translation().norm(), error_deg = rotationAngle(error) * kDegPerRad;
+    outcome.error_m.push_back(error_m);
+    if (tracking.status == TrackingStatus::kDegenerate) {
+      outcome.degenerate.push_back(i);
+      continue;
+    }
+    if (error_m > kWrong_m || error_deg > kWrong_deg) outcome.wrong.push_back(i);
+    outcome.largest_m = std::max(outcome.largest_m, error_m);
+    outcome.largest_deg = std::max(outcome.largest_deg, error_deg);
+  }
+  std::printf("%s: %.1f mm, %.2f deg at most", recording.description().c_str(), 1e3 * outcome.largest_m,
+              outcome.largest_deg);
+  for (size_t i = 19; i < outcome.error_m.size(); i += 20) std::printf(" %.1f", 1e3 * outcome.error_m[i]);
+  print("wrong", outcome.wrong);
+  print("lost", outcome.lost);
+  print("degenerate", outcome.degenerate);
+  std::printf(" %s\n", outcome.first_reason.c_str());
+  return outcome;
+}
+
+SimulationOptions scene(const std::string& name, int frames) {
+  SimulationOptions options;
+  options.scene = name;
+  options.frames = frames;
+  options.intrinsics = halved(makeScene(name).sensor.camera);
+  return options;
+}
+
+// What cfg/kinect_v1.yaml says of the shutter.
+PipelineParameters rollingShutter() {
+  PipelineParameters parameters;
+  parameters.preprocessing.readout_s = 0.03f;
+  return parameters;
+}
+
+Outcome trackScene(const SimulationOptions& options, const PipelineParameters& parameters = {}) {
+  SimulatedRecording recording(options);
+  return track(recording, parameters);
+}
+
+TEST(DefeatsOthers, LampsShelvesAndTilesThatAreAlike) {
+  const Outcome outcome = trackScene(scene("alike", 100));
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
+TEST(DefeatsOthers, SomebodyWhoFillsTheView) {
+  const Outcome outcome = trackScene(scene("person", 140));
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_EQ(outcome.lostAmong(0, 30), 0u);
+  EXPECT_EQ(outcome.lostAmong(130, 140), 0u);
+}
+
+TEST(DefeatsOthers, AHandOverTheLens) {
+  const Outcome outcome = trackScene(scene("hand", 90));
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_EQ(outcome.lostAmong(0, 30), 0u);
+  EXPECT_EQ(outcome.lostAmong(60, 90), 0u);
+}
+
+TEST(DefeatsOthers, ThingsThatTurnOnATable) {
+  const Outcome outcome = trackScene(scene("turntable", 80));
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
+TEST(DefeatsOthers, AMirror) {
+  const Outcome outcome = trackScene(scene("mirror", 110));
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
+TEST(DefeatsOthers, AGlassWall) {
+  const Outcome outcome = trackScene(scene("glass", 80));
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
+TEST(DefeatsOthers, LightSwitchedOff) {
+  SimulationOptions options = scene("room", 90);
+  options.lifelike = true;
+  const auto recording = lightsOff(std::make_unique<SimulatedRecording>(options), 30, 30);
+  const Outcome outcome = track(*recording, rollingShutter());
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
+// A first frame that has depth in a few pixels only makes a map that nothing fits (docs/tracking.md).
+TEST(DefeatsOthers, AStartTooNearAWallIsNotWrong) {
+  const Outcome outcome = trackScene(scene("backing", 40));
+  EXPECT_TRUE(outcome.wrong.empty());
+}
+
+TEST(DefeatsOthers, AStartBeforeAWall) {
+  SimulatedRecording recording(scene("backing", 120));
+  for (int i = 0; i < 15; ++i) recording.next();  // until it is in range
+  const Outcome outcome = track(recording);
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
+TEST(DefeatsOthers, FastShakes) {
+  const Outcome outcome = trackScene(scene("shaken", 120), rollingShutter());
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
+TEST(DefeatsOthers, StandingStill) {
+  SimulationOptions options = scene("room", 200);
+  options.speed = 1e-6;
+  options.tremor = 0.0;
+  options.lifelike = true;
+  const Outcome outcome = trackScene(options, rollingShutter());
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+  EXPECT_LT(outcome.largest_m, 0.003);
+  EXPECT_LT(outcome.blocks_after.back(), 1.03 * outcome.blocks_after[60]) << "ghosts";
+}
+
+TEST(DefeatsOthers, IrregularFrames) {
+  SimulationOptions options = scene("room", 180);
+  options.lifelike = true;
+  const auto recording = irregular(std::make_unique<SimulatedRecording>(options), 6, 1);
+  const Outcome outcome = track(*recording, rollingShutter());
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
+TEST(DefeatsOthers, TenHertz) {
+  SimulationOptions options = scene("room", 45);
+  options.lifelike = true;
+  options.fps = 10.0;
+  const Outcome outcome = trackScene(options, rollingShutter());
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
+TEST(DefeatsOthers, LargeImages) {
+  SimulationOptions options = scene("room", 15);
+  options.lifelike = true;
+  options.fps = 15.0;
+  options.intrinsics = {1280, 720, 920.0, 920.0, 639.5, 359.5};
+  const Outcome outcome = trackScene(options, rollingShutter());
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
+}  // namespace
+}  // namespace depth_fusion
