@@ -70,7 +70,7 @@ int say(const Arguments& arguments) {
 int rescue(const Arguments& arguments) {
   const MapRescue saved = rescueMap(arguments.map, arguments.rescued);
   sayProblems(saved.problems);
-  std::cout << arguments.rescued << ": " << saved.blocks << " blocks and " << saved.keyframes
+  std::cout << placeName(arguments.rescued) << ": " << saved.blocks << " blocks and " << saved.keyframes
             << " keyframes saved, " << saved.blocks_lost << " blocks lost" << std::endl;
   return 0;
 }

@@ -63,6 +63,7 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
   if (result.status == TrackingStatus::kLost) {
     motion_.lose();
   } else {
+    given_.reset();
     found_ = {std::move(texture.features), result, motion_};
     motion_.moveTo(frame.stamp_s, result.T_W_D);
   }
@@ -171,7 +172,7 @@ TrackingResult TrackingSession::searchAtGiven(StageTimers& timers) {
         orStillLost(tracker_.search(*depth_, render_(T_W_D), {T_W_D, std::nullopt, "given pose"}, timers));
     if (result.status != TrackingStatus::kLost && result.explained > best.explained) best = result;
   }
-  if (best.status != TrackingStatus::kLost || --given_->frames_left == 0) given_.reset();
+  if (--given_->frames_left == 0) given_.reset();
   return best;
 }
 

@@ -65,10 +65,7 @@ void Relocaliser::add(const FrameFeatures& features, const Pose& T_W_D) {
   dropSurplus();
 }
 
-void Relocaliser::reset(Keyframes keyframes) {
-  keyframes_ = std::move(keyframes);
-  dropSurplus();
-}
+void Relocaliser::reset(Keyframes keyframes) { keyframes_ = std::move(keyframes); }
 
 void Relocaliser::dropSurplus() {
   while (static_cast<int>(keyframes_.size()) > parameters_.max_keyframes) {

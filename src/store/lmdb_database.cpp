@@ -1,5 +1,6 @@
 #include "store/lmdb_database.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -26,7 +27,7 @@ struct LmdbFile {
   LmdbEnvironment environment;
   MDB_dbi rows = 0;
 };
-using LmdbFilePtr = std::shared_ptr<const LmdbFile>;
+using LmdbFilePtr = std::shared_ptr<LmdbFile>;
 
 LmdbTransaction begin(const LmdbFile& file, unsigned flags) {
   MDB_txn* transaction = nullptr;
@@ -93,6 +94,16 @@ class LmdbWriter final : public LmdbRows<DatabaseWriter> {
   void checked(int code) const { checkLmdb(code, file_->path, "cannot be written"); }
 };
 
+// Whether the open file is the one at the path: it may have been moved away, or replaced.
+bool isThere(const LmdbFile& file) {
+  struct stat there {};
+  struct stat open {};
+  int descriptor = -1;
+  return mdb_env_get_fd(file.environment.get(), &descriptor) == MDB_SUCCESS &&
+         fstat(descriptor, &open) == 0 && stat(file.path.c_str(), &there) == 0 &&
+         there.st_dev == open.st_dev && there.st_ino == open.st_ino;
+}
+
 class LmdbDatabase final : public Database {
  public:
   LmdbDatabase(LmdbFilePtr file, DatabaseAccess access) : file_(std::move(file)), access_(access) {}
@@ -102,7 +113,13 @@ class LmdbDatabase final : public Database {
     check(access_ == DatabaseAccess::kWrite, file_->path + " was opened for reading");
     return std::make_unique<LmdbWriter>(file_);
   }
-  uint64_t bytes() override { return fs::file_size(file_->path); }
+  uint64_t bytes() override {
+    std::error_code error;
+    const uint64_t bytes = fs::file_size(file_->path, error);
+    check(!error, file_->path + " cannot be looked at: " + error.message());
+    return bytes;
+  }
+  bool isThere() const override { return depth_fusion::isThere(*file_); }
   std::string name() const override { return file_->path; }
 
  private:
@@ -115,30 +132,44 @@ bool canBeWritten(const fs::path& path) {
   return access(folder.c_str(), W_OK) == 0 && (!fs::exists(path) || access(path.c_str(), W_OK) == 0);
 }
 
-// Without a lock file where none can be made: then nobody writes there.
-LmdbFilePtr openFile(const std::string& path) {
-  const bool writable = canBeWritten(path);
-  auto file = std::make_shared<LmdbFile>();
-  file->path = path;
-  file->environment = openEnvironment(path, writable ? 0 : MDB_RDONLY | MDB_NOLOCK);
-  const LmdbTransaction transaction = begin(*file, writable ? 0 : MDB_RDONLY);
-  checkLmdb(mdb_dbi_open(transaction.get(), nullptr, 0, &file->rows), path, "cannot be opened");
-  return file;
+// Of mdb_env_open. Where no lock file can be made and none is there, nobody else has the file open.
+unsigned openingFlags(const std::string& path) {
+  if (canBeWritten(path)) return 0;
+  check(!fs::exists(path + "-lock"),
+        path + " is another user's, who may be writing it; copy it, and read the copy");
+  return MDB_RDONLY | MDB_NOLOCK;
 }
 
-// The file as this process has it open, or opened now.
-LmdbFilePtr sharedFile(const std::string& path) {
-  static std::mutex mutex;
-  static std::map<std::string, std::weak_ptr<const LmdbFile>> open_files;
-  const std::lock_guard<std::mutex> lock(mutex);
-  std::weak_ptr<const LmdbFile>& known = open_files[path];
-  LmdbFilePtr file = known.lock();
-  if (file == nullptr) {
+// The files that this process has open, each once. They are opened and closed under one mutex.
+class OpenFiles {
+ public:
+  LmdbFilePtr open(const std::string& path) {
+    const std::lock_guard<std::recursive_mutex> lock(mutex_);
+    LmdbFilePtr file = files_[path].lock();
+    if (file != nullptr && isThere(*file)) return file;
     const std::string damage = fs::exists(path) ? lmdbDamage(path) : "";
     check(damage.empty(), damage);
-    known = file = openFile(path);
+    file.reset(new LmdbFile, [this](LmdbFile* closed) {
+      const std::lock_guard<std::recursive_mutex> closing(mutex_);
+      delete closed;
+    });
+    const unsigned flags = openingFlags(path);
+    file->path = path;
+    file->environment = openEnvironment(path, flags);
+    const LmdbTransaction transaction = begin(*file, flags & MDB_RDONLY);
+    checkLmdb(mdb_dbi_open(transaction.get(), nullptr, 0, &file->rows), path, "cannot be opened");
+    files_[path] = file;
+    return file;
   }
-  return file;
+
+ private:
+  std::recursive_mutex mutex_;
+  std::map<std::string, std::weak_ptr<LmdbFile>> files_;
+};
+
+OpenFiles& openFiles() {
+  static OpenFiles files;
+  return files;
 }
 
 }  // namespace
@@ -149,9 +180,8 @@ void checkWritable(const std::string& path) {
 
 std::unique_ptr<Database> openLmdb(const std::string& path, DatabaseAccess access) {
   check(!fs::is_directory(path), path + " is a folder; give the name of a file");
-  check(access == DatabaseAccess::kWrite || fs::exists(path), "there is no map file " + path);
   if (access == DatabaseAccess::kWrite) checkWritable(path);
-  return std::make_unique<LmdbDatabase>(sharedFile(fs::weakly_canonical(path).string()), access);
+  return std::make_unique<LmdbDatabase>(openFiles().open(fs::weakly_canonical(path).string()), access);
 }
 
 }  // namespace depth_fusion

@@ -9,7 +9,7 @@
 namespace depth_fusion {
 
 // The file has a lock file beside it, PATH-lock. Several processes may have it open, and this one several
-// times. Throws Error as openDatabase does.
+// times. Throws Error as openDatabase does; to be read, the file is there.
 std::unique_ptr<Database> openLmdb(const std::string& path, DatabaseAccess access);
 
 // Throws Error if the file cannot be written, or made.

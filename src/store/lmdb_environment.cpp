@@ -9,7 +9,8 @@
 namespace depth_fusion {
 namespace {
 
-constexpr size_t kMaxFileBytes = size_t{1} << 40;  // of address space; the file is as large as its contents
+// Of address space; the file is as large as its contents. Systems that have little of it get less.
+constexpr size_t kMostBytes = size_t{1} << 36, kLeastBytes = size_t{1} << 30;
 constexpr unsigned kFlags = MDB_NOSUBDIR | MDB_NOTLS;
 
 std::string cure(int code) {
@@ -51,13 +52,17 @@ void checkLmdb(int code, const std::string& path, const std::string& doing) {
 }
 
 LmdbEnvironment openEnvironment(const std::string& path, unsigned flags, FileLength length) {
-  MDB_env* created = nullptr;
-  checkLmdb(mdb_env_create(&created), path, "cannot be opened");
-  LmdbEnvironment environment(created);
-  checkLmdb(mdb_env_set_mapsize(created, kMaxFileBytes), path, "cannot be opened");
-  checkLmdb(mdb_env_open(created, path.c_str(), kFlags | flags, 0644), path, "cannot be opened");
-  if (length == FileLength::kMustFit) checkLength(created, path);
-  return environment;
+  for (size_t bytes = kMostBytes;; bytes /= 2) {
+    MDB_env* created = nullptr;
+    checkLmdb(mdb_env_create(&created), path, "cannot be opened");
+    LmdbEnvironment environment(created);
+    checkLmdb(mdb_env_set_mapsize(created, bytes), path, "cannot be opened");
+    const int code = mdb_env_open(created, path.c_str(), kFlags | flags, 0644);
+    if (code == ENOMEM && bytes > kLeastBytes) continue;
+    checkLmdb(code, path, "cannot be opened");
+    if (length == FileLength::kMustFit) checkLength(created, path);
+    return environment;
+  }
 }
 
 }  // namespace depth_fusion

@@ -9,7 +9,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr int kLevel = 1;  // of zstd; docs/benchmarks.md has others
+constexpr int kLevel = 1;  // of zstd; docs/maps.md has others
 
 struct FreeContext {
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }

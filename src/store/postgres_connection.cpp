@@ -23,14 +23,15 @@ struct FreeOptions {
 
 PostgresPlace parsePostgresPlace(const std::string& location) {
   PostgresPlace place;
-  const size_t mark = location.find('#');
+  const size_t mark = location.rfind('#');
   place.uri = location.substr(0, mark);
   place.map = mark == std::string::npos ? "map" : location.substr(mark + 1);
-  char* reason = nullptr;
-  const std::unique_ptr<PQconninfoOption, FreeOptions> options(PQconninfoParse(place.uri.c_str(), &reason));
-  const std::string problem = reason == nullptr ? "" : oneLine(reason);
-  PQfreemem(reason);
-  check(options != nullptr, "this is no address of a database server: " + problem);
+  // What libpq says of it may hold the password.
+  const std::unique_ptr<PQconninfoOption, FreeOptions> options(PQconninfoParse(place.uri.c_str(), nullptr));
+  check(options != nullptr && place.map.find('@') == std::string::npos,
+        "the address of the database server is none; it is postgresql://USER@HOST/DATABASE#MAP, and in a "
+        "password "
+        "%, @, /, : and # are written %25, %40, %2F, %3A and %23");
   const auto valueOf = [&](const std::string& keyword) -> std::string {
     for (const PQconninfoOption* option = options.get(); option->keyword != nullptr; ++option) {
       if (option->keyword == keyword && option->val != nullptr) return option->val;
@@ -46,12 +47,16 @@ PostgresPlace parsePostgresPlace(const std::string& location) {
 PostgresConnection::PostgresConnection(const PostgresPlace& place)
     : name_(place.name), connection_(nullptr, PQfinish) {
   // Those before the URI are for what it does not say.
-  const char* keywords[] = {"connect_timeout", "tcp_user_timeout", "application_name", "dbname", nullptr};
-  const char* values[] = {"10", "30000", "depth_fusion", place.uri.c_str(), nullptr};
+  const char* keywords[] = {"connect_timeout",  "tcp_user_timeout", "keepalives_idle", "keepalives_interval",
+                            "keepalives_count", "application_name", "dbname",          nullptr};
+  const char* values[] = {"10", "30000", "10", "5", "4", "depth_fusion", place.uri.c_str(), nullptr};
   connection_.reset(PQconnectdbParams(keywords, values, 1));
   check(connection_ != nullptr && PQstatus(connection_.get()) == CONNECTION_OK,
         name_ + " cannot be reached: " + oneLine(PQerrorMessage(connection_.get())) +
             "; is the server running, and are user and password right?");
+  // Nobody waits for ever for a writer that is gone.
+  execute("SET lock_timeout = '30s'");
+  execute("SET idle_in_transaction_session_timeout = '60s'");
 }
 
 PostgresConnection::Result PostgresConnection::execute(const std::string& statement,

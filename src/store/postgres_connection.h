@@ -29,6 +29,8 @@ class PostgresConnection {
    public:
     explicit Result(PGresult* result) : result_(result, PQclear) {}
     int rows() const { return PQntuples(result_.get()); }
+    // What was done, as "COMMIT".
+    std::string tag() const { return PQcmdStatus(result_.get()); }
     std::string bytes(int row, int column) const {
       return {PQgetvalue(result_.get(), row, column),
               static_cast<size_t>(PQgetlength(result_.get(), row, column))};

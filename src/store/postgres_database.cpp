@@ -24,6 +24,12 @@ std::string afterPrefix(std::string prefix) {
   return prefix;
 }
 
+bool hasTable(PostgresConnection& connection) {
+  constexpr char kLook[] =
+      "SELECT table_name FROM information_schema.tables WHERE table_name = 'depth_fusion_rows'";
+  return connection.execute(kLook).rows() > 0;
+}
+
 // Reads for either kind of transaction.
 template <class Interface>
 class PostgresRows : public Interface {
@@ -76,7 +82,7 @@ class PostgresReader final : public PostgresRows<DatabaseReader> {
 
 class PostgresWriter final : public PostgresRows<DatabaseWriter> {
  public:
-  explicit PostgresWriter(const PostgresPlace& place) : PostgresRows(place, "BEGIN") {
+  explicit PostgresWriter(const PostgresPlace& place) : PostgresRows(place, "BEGIN"), name_(place.name) {
     insert({{kLockKey, ""}});
   }
 
@@ -95,7 +101,8 @@ class PostgresWriter final : public PostgresRows<DatabaseWriter> {
   }
   void commit() override {
     flush();
-    connection_.execute("COMMIT");
+    // One in which a statement failed ends as a rollback, which is no error to the server.
+    check(connection_.execute("COMMIT").tag() == "COMMIT", name_ + ": nothing was written");
   }
 
  private:
@@ -123,6 +130,7 @@ class PostgresWriter final : public PostgresRows<DatabaseWriter> {
                         parameters);
   }
 
+  std::string name_;
   Rows waiting_;
   size_t waiting_bytes_ = 0;
 };
@@ -143,6 +151,7 @@ class PostgresDatabase final : public Database {
         {place_.map});
     return std::stoull(sum.bytes(0, 0));
   }
+  bool isThere() const override { return true; }
   std::string name() const override { return place_.name; }
 
  private:
@@ -152,17 +161,21 @@ class PostgresDatabase final : public Database {
 
 }  // namespace
 
-std::unique_ptr<Database> openPostgres(const std::string& uri, DatabaseAccess access) {
-  const PostgresPlace place = parsePostgresPlace(uri);
+std::unique_ptr<Database> makePostgres(const std::string& location) {
+  const PostgresPlace place = parsePostgresPlace(location);
   PostgresConnection connection(place);
-  if (access == DatabaseAccess::kWrite) {
-    connection.execute(kMakeTable);
-  } else {
-    const auto found =
-        connection.execute("SELECT key FROM depth_fusion_rows WHERE map = $1 LIMIT 1", {place.map});
-    check(found.rows() > 0, "there is no map " + place.name);
-  }
-  return std::make_unique<PostgresDatabase>(place, access);
+  if (!hasTable(connection)) connection.execute(kMakeTable);
+  return std::make_unique<PostgresDatabase>(place, DatabaseAccess::kWrite);
+}
+
+std::unique_ptr<Database> openPostgresIfThere(const std::string& location) {
+  const PostgresPlace place = parsePostgresPlace(location);
+  PostgresConnection connection(place);
+  if (!hasTable(connection)) return nullptr;
+  const auto rows =
+      connection.execute("SELECT key FROM depth_fusion_rows WHERE map = $1 LIMIT 1", {place.map});
+  if (rows.rows() == 0) return nullptr;
+  return std::make_unique<PostgresDatabase>(place, DatabaseAccess::kRead);
 }
 
 }  // namespace depth_fusion

@@ -10,7 +10,11 @@ namespace depth_fusion {
 
 // The rows of all maps lie in the table depth_fusion_rows, which is made where it is missing. Plain SQL only,
 // so that distributed engines of that protocol serve, too. Each reader and writer has a connection of its
-// own. Throws Error as openDatabase does.
-std::unique_ptr<Database> openPostgres(const std::string& uri, DatabaseAccess access);
+// own. Both throw Error as openDatabase does.
+//
+// To be written.
+std::unique_ptr<Database> makePostgres(const std::string& location);
+// To be read; null if there is no row of that map.
+std::unique_ptr<Database> openPostgresIfThere(const std::string& location);
 
 }  // namespace depth_fusion

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <exception>
 
 #include "depth_fusion/common/error.h"
@@ -13,10 +14,15 @@
 namespace depth_fusion {
 namespace {
 
+constexpr unsigned kMost_s = 300;  // of a process, lest somebody waits for one that hangs
+
 // It dies quietly, without the files and messages of a crash.
 [[noreturn]] void workAndEnd(const std::function<void(int pipe)>& work, int pipe) {
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
+  signal(SIGALRM, SIG_DFL);
+  signal(SIGPIPE, SIG_DFL);
+  alarm(kMost_s);
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDERR_FILENO);
   try {
@@ -25,6 +31,13 @@ namespace {
     _exit(1);
   }
   _exit(0);
+}
+
+int await(pid_t worker) {
+  int status = 0;
+  while (waitpid(worker, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
 }
 
 }  // namespace
@@ -38,12 +51,17 @@ bool runApart(const std::function<void(int pipe)>& work, const std::function<voi
     workAndEnd(work, ends[1]);
   }
   close(ends[1]);
-  if (worker > 0) read(ends[0]);
-  close(ends[0]);
+  if (worker < 0) close(ends[0]);
   check(worker > 0, "no process can be started");
-  int status = 0;
-  while (waitpid(worker, &status, 0) < 0 && errno == EINTR) {
+  try {
+    read(ends[0]);
+  } catch (...) {
+    close(ends[0]);
+    await(worker);
+    throw;
   }
+  close(ends[0]);
+  const int status = await(worker);
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 

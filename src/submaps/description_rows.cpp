@@ -1,6 +1,8 @@
 #include "submaps/description_rows.h"
 
+#include "depth_fusion/map/map_parameters.h"
 #include "store/packed_row.h"
+#include "submaps/row_keys.h"
 #include "submaps/row_parts.h"
 
 namespace depth_fusion {
@@ -99,6 +101,10 @@ SubmapDescription parseSubmap(const std::string& row, const std::string& where) 
   submap.window.blocks_per_axis = bytes.number<int>();
   submap.blocks = bytes.number<uint64_t>();
   checkAtEnd(bytes);
+  checkBlock(submap.window.origin);
+  MapParameters map;
+  map.blocks_per_axis = submap.window.blocks_per_axis;
+  validate(map.table());
   return submap;
 }
 

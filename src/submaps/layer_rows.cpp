@@ -1,6 +1,7 @@
 #include "submaps/layer_rows.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/map/map_parameters.h"
@@ -12,6 +13,7 @@ std::vector<LayerRow> storedLayers(const MapDescription& description) {
   MapParameters with_all;
   with_all.color = true;
   const std::vector<LayerRow> known = layersOf(with_all);
+  check(!description.layers.empty(), "the map has no layer");
   std::vector<LayerRow> layers;
   for (const std::string& name : description.layers) {
     const auto row =
@@ -34,12 +36,16 @@ void forEachGroup(const RowSource& rows, uint32_t submap, const LayerRow& layer,
                                            const BlockIndex& index, BlockGroup group)>& visit) {
   const std::string prefix = blocksPrefix(submap, layer.name);
   rows(prefix, [&](const std::string& key, const std::string& row) {
+    BlockIndex index;
+    BlockGroup group;
     try {
-      const BlockIndex index = groupOfKey(key, prefix);
-      visit(key, row, index, parseBlocks(row, index, layer, block_size, "row " + readable(key)));
+      index = groupOfKey(key, prefix);
+      group = parseBlocks(row, index, layer, block_size, "row " + readable(key));
     } catch (const Error& error) {
       problems.emplace_back(error.what());
+      return;
     }
+    visit(key, row, index, std::move(group));
   });
 }
 

@@ -47,8 +47,8 @@ void checkKeyframes(const SubmapDescription& submap, const RowSource& rows, MapC
 
 MapCheck checkMap(Database& database) {
   MapCheck result;
-  result.description = describeMap(database);
   const std::unique_ptr<DatabaseReader> reader = database.read();
+  result.description = describeMap(database, *reader);
   const RowSource rows = [&](const std::string& prefix, const DatabaseReader::Visit& visit) {
     reader->forEach(prefix, visit);
   };

@@ -21,10 +21,9 @@ RowSource salvagedRows(const std::string& location) {
       salvageLmdb(location, prefix, visit);
     };
   }
-  const std::shared_ptr<Database> database = openDatabase(location, DatabaseAccess::kRead);
-  return [=](const std::string& prefix, const DatabaseReader::Visit& visit) {
-    database->read()->forEach(prefix, visit);
-  };
+  const std::shared_ptr<DatabaseReader> reader = openDatabase(location, DatabaseAccess::kRead)->read();
+  return
+      [=](const std::string& prefix, const DatabaseReader::Visit& visit) { reader->forEach(prefix, visit); };
 }
 
 class Rescue {
@@ -62,14 +61,9 @@ class Rescue {
 
   void saveSubmap(SubmapDescription submap) {
     const uint64_t expected = std::exchange(submap.blocks, 0);
-    GroupBlocks first;
-    for (const LayerRow& layer : storedLayers(*description_)) {
-      if (first.empty()) {
-        first = saveFirst(submap.id, layer);
-      } else {
-        saveOther(submap.id, layer, first);
-      }
-    }
+    const std::vector<LayerRow> layers = storedLayers(*description_);
+    const GroupBlocks first = saveFirst(submap.id, layers.front());
+    for (size_t i = 1; i < layers.size(); ++i) saveOther(submap.id, layers[i], first);
     for (const auto& [index, blocks] : first) submap.blocks += blocks.size();
     writer_.put(submapKey(submap.id), submapRow(submap));
     result_.blocks += submap.blocks;
@@ -106,20 +100,21 @@ class Rescue {
 
   void saveKeyframes(uint32_t submap) {
     rows_(keyframePrefix(submap), [&](const std::string& key, const std::string& row) {
-      attempt([&] {
-        parseKeyframe(row, "row " + readable(key));
-        writer_.put(key, row);
-        ++result_.keyframes;
-      });
+      if (!attempt([&] { parseKeyframe(row, "row " + readable(key)); })) return;
+      writer_.put(key, row);
+      ++result_.keyframes;
     });
   }
 
+  // Whether it could be done; why not, is noted.
   template <class Action>
-  void attempt(const Action& action) {
+  bool attempt(const Action& action) {
     try {
       action();
+      return true;
     } catch (const Error& error) {
       result_.problems.emplace_back(error.what());
+      return false;
     }
   }
 

@@ -86,10 +86,12 @@ bool MapSaver::isWritten(DatabaseReader& stored) const {
 }
 
 void MapSaver::adopt(BlockMap& map, const LoadedMap& stored) {
+  std::vector<std::string> layers;
+  for (const LayerRow& layer : layersOf(map.parameters())) layers.push_back(layer.name);
   changes_ = map.follow();
   changes_->take();
   generation_ = map.generation();
-  everything_changed_ = false;
+  everything_changed_ = layers != stored.description.layers;
   changed_groups_.clear();
   id_ = stored.description.id;
   revision_ = stored.description.revision;
@@ -99,7 +101,8 @@ void MapSaver::adopt(BlockMap& map, const LoadedMap& stored) {
 }
 
 void MapSaver::prepare() {
-  if (database_ == nullptr) database_ = openDatabase(location_, DatabaseAccess::kWrite);
+  if (database_ == nullptr || !database_->isThere())
+    database_ = openDatabase(location_, DatabaseAccess::kWrite);
   everything_changed_ = everything_changed_ || !isWritten(*database_->read());
 }
 
@@ -120,15 +123,23 @@ SaveReport MapSaver::write() {
   writeBlocks(*writer);
   WrittenKeyframes keyframes = writeKeyframes(*writer, all);
   writer->commit();
-  SaveReport report{database_->name(), captured_->submap.blocks, captured_->blocks.size(),
-                    database_->bytes()};
+  SaveReport report{database_->name(), captured_->submap.blocks, captured_->blocks.size(), 0};
   everything_changed_ = false;
   changed_groups_.clear();
   written_keyframes_ = std::move(keyframes);
   id_ = description.id;
   revision_ = description.revision;
   captured_.reset();
+  report.bytes = database_->bytes();
   return report;
+}
+
+bool MapSaver::hasChanges() const {
+  check(captured_.has_value(), "no map was captured to be saved");
+  if (captured_->everything || !changed_groups_.empty()) return true;
+  return captured_->keyframes.size() != written_keyframes_.size() ||
+         std::any_of(captured_->keyframes.begin(), captured_->keyframes.end(),
+                     [this](const KeyframePtr& keyframe) { return written_keyframes_.count(keyframe) == 0; });
 }
 
 void MapSaver::writeBlocks(DatabaseWriter& writer) const {

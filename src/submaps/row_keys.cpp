@@ -47,7 +47,16 @@ std::string blocksKey(uint32_t submap, const std::string& layer, const BlockInde
 BlockIndex groupOfKey(const std::string& key, const std::string& prefix) {
   check(key.size() == prefix.size() + 12, "the map has a row of blocks without a place");
   const size_t begin = prefix.size();
-  return {orderedNumber(key, begin + 8), orderedNumber(key, begin + 4), orderedNumber(key, begin)};
+  const BlockIndex group(orderedNumber(key, begin + 8), orderedNumber(key, begin + 4),
+                         orderedNumber(key, begin));
+  checkBlock(group);
+  return group;
+}
+
+void checkBlock(const BlockIndex& block) {
+  constexpr int kFarthest = 1 << 26;
+  check((block.array() > -kFarthest).all() && (block.array() < kFarthest).all(),
+        "the map has a block that is out of all bounds");
 }
 
 uint32_t numberOfKey(const std::string& key) {

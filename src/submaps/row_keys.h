@@ -20,6 +20,9 @@ std::string blocksKey(uint32_t submap, const std::string& layer, const BlockInde
 // The group that a key of blocksKey names. Throws Error for another one.
 BlockIndex groupOfKey(const std::string& key, const std::string& prefix);
 
+// Throws Error for a block that is so far away that numbers overflow.
+void checkBlock(const BlockIndex& block);
+
 // The last number of a key, of a keyframe for instance.
 uint32_t numberOfKey(const std::string& key);
 

@@ -21,7 +21,8 @@ inline Pose readPose(ByteReader& bytes) {
     for (int column = 0; column < 4; ++column) pose.matrix()(row, column) = bytes.number<double>();
   }
   const Eigen::Matrix3d square = pose.linear() * pose.linear().transpose();
-  check(pose.matrix().allFinite() && square.isIdentity(1e-6), bytes.where() + " has a pose that is none");
+  check(pose.matrix().allFinite() && square.isIdentity(1e-6) && pose.linear().determinant() > 0.0,
+        bytes.where() + " has a pose that is none");
   return pose;
 }
 
@@ -35,7 +36,14 @@ inline CameraIntrinsics readCamera(ByteReader& bytes) {
   CameraIntrinsics camera;
   camera.width = bytes.number<int>();
   camera.height = bytes.number<int>();
-  for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value = bytes.number<double>();
+  bool is_finite = true;
+  for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) {
+    *value = bytes.number<double>();
+    is_finite = is_finite && std::isfinite(*value);
+  }
+  constexpr int kMaxSize_px = 16384;
+  check(is_finite && camera.valid() && camera.width <= kMaxSize_px && camera.height <= kMaxSize_px,
+        bytes.where() + " has a camera that is none");
   return camera;
 }
 

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -62,16 +63,20 @@ class PostgresServer {
   static constexpr char kPassword[] = "sesame";
 
  private:
+  // Below those that the system gives away itself, so that it stays free while the server is stopped.
   static int freePort() {
-    const int probe = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t length = sizeof(address);
-    auto* place = reinterpret_cast<sockaddr*>(&address);
-    check(bind(probe, place, length) == 0 && getsockname(probe, place, &length) == 0, "no free port");
-    close(probe);
-    return ntohs(address.sin_port);
+    std::random_device random;
+    while (true) {
+      const int port = 20000 + static_cast<int>(random() % 10000);
+      const int probe = socket(AF_INET, SOCK_STREAM, 0);
+      sockaddr_in address{};
+      address.sin_family = AF_INET;
+      address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+      address.sin_port = htons(static_cast<uint16_t>(port));
+      const bool is_free = bind(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+      close(probe);
+      if (is_free) return port;
+    }
   }
 
   std::string command(const std::string& program) const {

@@ -88,7 +88,7 @@ TEST_F(MapSessions, WhatCannotBeGoneOnWithIsSaidAtTheStart) {
     EXPECT_EQ(run.status, 1);
     EXPECT_NE(run.errors.find(word), std::string::npos) << run.errors;
   };
-  expectRefused({"--continue", folder_ / "none.map"}, "there is no map file");
+  expectRefused({"--continue", folder_ / "none.map"}, "there is no map");
   expectRefused({"--map", folder_ / "no/such/folder/x.map"}, "cannot be written");
   std::ofstream(folder_ / "notes.txt") << "notes";
   expectRefused({"--continue", folder_ / "notes.txt"}, "notes.txt");

@@ -16,7 +16,7 @@ class Relocaliser {
   // Keeps the frame as a keyframe if it has features and no keyframe is near. When there are too many, the
   // one that stands closest to another goes.
   void add(const FrameFeatures& features, const Pose& T_W_D);
-  // Forgets the keyframes that there are for those of another map.
+  // Forgets the keyframes that there are for those of another map, all of which are kept until one comes.
   void reset(Keyframes keyframes = {});
 
   // Returns the keyframes whose thumbnails are most like the frame's, best first, and at most max_candidates.

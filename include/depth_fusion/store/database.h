@@ -43,6 +43,8 @@ class Database {
   virtual std::unique_ptr<DatabaseWriter> write() = 0;
   // What it takes where it lies.
   virtual uint64_t bytes() = 0;
+  // Whether what was opened is still what the place names.
+  virtual bool isThere() const = 0;
   // Its place for messages: without a password.
   virtual std::string name() const = 0;
 };
@@ -57,6 +59,12 @@ bool isOnServer(const std::string& location);
 // or a table, that is not there is made for kWrite. Throws Error if there is none to be read, for a file that
 // is none or is damaged, and for a server that does not answer.
 std::unique_ptr<Database> openDatabase(const std::string& location, DatabaseAccess access);
+
+// The same, to be read; null if there is none. Makes nothing.
+std::unique_ptr<Database> openIfThere(const std::string& location);
+
+// The place for messages: without a password. Throws Error for an address that is none.
+std::string placeName(const std::string& location);
 
 // Throws Error if nothing can be written there; makes nothing.
 void checkPlace(const std::string& location);

@@ -49,6 +49,8 @@ class MapSaver {
   // Writes what was captured last. Throws Error if it cannot be written; what is stored is then as it was,
   // and the next save makes up for it.
   SaveReport write();
+  // Whether what was captured last is another map than the one that is stored.
+  bool hasChanges() const;
 
  private:
   // What is to be written.
@@ -91,10 +93,38 @@ class MapSaver {
 std::unique_ptr<Database> openStoredMap(const std::string& location);
 
 // What the map at that place says of itself. Throws Error if there is none.
+MapDescription describeMap(const Database& database, DatabaseReader& reader);
 MapDescription describeMap(Database& database);
 
-// Fills the map with the one at that place; what it held before is gone. Throws Error if the two do not fit
-// together, or if what is stored is damaged: the map is then as it was.
+// A stored map that was read, to take another one's place.
+class ReadMap {
+ public:
+  // Reads the map for one with the parameters and the pool of `map`, of which nothing else is looked at.
+  // Throws Error if the two do not fit together, or if what is stored is damaged.
+  ReadMap(Database& database, const BlockMap& map);
+
+  // Fills the map; what it held before is gone.
+  void moveTo(BlockMap& map) const;
+  const LoadedMap& loaded() const { return loaded_; }
+
+ private:
+  // A layer's blocks, in the order of their rows, and their voxels.
+  struct Layer {
+    LayerRow row;
+    std::vector<BlockIndex> blocks;
+    std::vector<int> states;
+    std::string voxels;
+  };
+
+  void readLayer(const Database& database, DatabaseReader& reader, const LayerRow& row, int block_size);
+  void checkRoom(const BlockMap& map, const std::string& name) const;
+
+  LoadedMap loaded_;
+  Window window_;
+  std::vector<Layer> layers_;  // those that both maps have, the TSDF first
+};
+
+// Fills the map with the one at that place. Throws Error as ReadMap does: the map is then as it was.
 LoadedMap loadMap(Database& database, BlockMap& map);
 
 }  // namespace depth_fusion

@@ -30,6 +30,9 @@ class CallbackGate {
     return handle.advertiseService(name, serve, token_);
   }
 
+  // What roscpp is to hold during a callback of another kind: its tracked object.
+  ros::VoidConstPtr token() const { return token_; }
+
   // Waits for the callbacks at work; none begins afterwards. Must not be called from one of them.
   void close();
 

@@ -60,16 +60,16 @@ void FrameMapper::render(const TrackedFrame& frame, FusedMap& map, StageTimers& 
   view_ = mapper.renderer().view();
 }
 
-LoadedMap FrameMapper::load(FusedMap& map, Database& stored, const MapReset& reset) {
-  LoadedMap loaded = map.load(stored);
-  prepare(loaded.description.camera);
-  last_pose_ = loaded.description.last_pose;
+void FrameMapper::load(FusedMap& map, const ReadMap& stored, const std::string& name, const MapReset& reset) {
+  const MapDescription& description = stored.loaded().description;
+  map.load(stored, name);
+  admission_.noteReset(reset);
+  last_pose_ = description.last_pose;
+  prepare(description.camera);
   Mapper& mapper = map.mapper(camera_);
   StageTimers timers;
   mapper.render(last_pose_.T_W_D, timers);
   view_ = mapper.renderer().view();
-  admission_.noteReset(reset);
-  return loaded;
 }
 
 MapDescription FrameMapper::describe(FusedMap& map) const {

@@ -35,9 +35,9 @@ class FrameMapper {
   // Renders the view of an accepted frame.
   void render(const TrackedFrame& frame, FusedMap& map, StageTimers& timers);
   ModelViewRenderer& renderer(FusedMap& map) const { return map.mapper(camera_).renderer(); }
-  // Takes in a stored map by a call: frames from before are refused from now on. Throws Error, and changes
-  // nothing, as loadMap does.
-  LoadedMap load(FusedMap& map, Database& stored, const MapReset& reset);
+  // Takes in a stored map by a call: frames from before are refused from now on. Throws Error as FusedMap
+  // does.
+  void load(FusedMap& map, const ReadMap& stored, const std::string& name, const MapReset& reset);
   // What is stored of the map beside its contents.
   MapDescription describe(FusedMap& map) const;
   // Empties the map by a call: frames from before are refused from now on.

@@ -159,6 +159,8 @@ void LiveTracker::changeMap(const std::shared_ptr<const MapView>& map) {
   map_ = map;
   if (session_ != nullptr) session_->reset(viewPose(), keyframesOf(map));  // one that is made later does so
   robot_.forget_poses();
+  const std::lock_guard<std::mutex> lock(expected_mutex_);
+  T_map_base_.reset();
 }
 
 const ModelView& LiveTracker::render(const Pose& T_W_D) {

@@ -36,11 +36,10 @@ void FusedMap::reset() {
   mapper_.reset();
 }
 
-LoadedMap FusedMap::load(Database& stored) {
-  checkFilterRule(describeMap(stored), parameters_, stored.name());
-  LoadedMap loaded = loadMap(stored, map_);
+void FusedMap::load(const ReadMap& stored, const std::string& name) {
+  checkFilterRule(stored.loaded().description, parameters_, name);
+  stored.moveTo(map_);
   mapper_.reset();
-  return loaded;
 }
 
 Mapper& FusedMap::mapper(const CameraIntrinsics& camera) {

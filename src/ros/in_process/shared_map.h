@@ -25,8 +25,9 @@ class FusedMap {
   Mapper& mapper(const CameraIntrinsics& camera);
   // Empties the map; a new generation begins.
   void reset();
-  // Takes in a stored map in place of what there is. Throws Error, and changes nothing, as loadMap does.
-  LoadedMap load(Database& stored);
+  // Takes in a stored map in place of what there is. Throws Error, and changes nothing, if it was filtered by
+  // another rule.
+  void load(const ReadMap& stored, const std::string& name);
   // The parameters are for the frames to come; the map's stay. Throws Error for what cannot change.
   void setParameters(const PipelineParameters& parameters);
 

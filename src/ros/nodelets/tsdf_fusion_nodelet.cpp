@@ -63,13 +63,14 @@ void TsdfFusionNodelet::start() {
   NODELET_INFO_STREAM("OpenCL device: " << map_->compute->selfTestReport());
   warmUp(*map_->compute, pipeline);
   advertise();
-  keeper_->loadAtStart();
   startReporting();
 }
 
 void TsdfFusionNodelet::advertise() {
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
-  reporter_ = std::make_unique<MapReporter>(map_, handle, kProcessQueue, [this] { greet(); });
+  map_->locked([&](FusedMap&) {
+    reporter_ = std::make_unique<MapReporter>(map_, handle, kProcessQueue, callbacks_, [this] { greet(); });
+  });
   worker_ = std::make_unique<Worker<WaitingFrame>>(
       parameters_.queue_size,
       [this](const WaitingFrame& waiting) {
@@ -80,6 +81,7 @@ void TsdfFusionNodelet::advertise() {
                                         [this](const std::string& news, FusedMap& map) {
                                           reporter_->announce(news, *mapper_, map, counter_.account());
                                         });
+  keeper_->loadAtStart();
   subscribe();
   reset_server_ = callbacks_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
       handle, "reset_volume",

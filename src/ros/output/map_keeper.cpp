@@ -53,22 +53,34 @@ MapKeeper::~MapKeeper() {
 
 void MapKeeper::loadAtStart() {
   if (!parameters_.map_file.empty()) {
-    const std::string place = placeOf("");
     try {
-      if (const std::unique_ptr<Database> stored = openStoredMap(place)) {
-        load(place, *stored, parameters_.read_only);
-      } else {
-        check(!parameters_.read_only, "there is no map to find poses in");
-        checkPlace(place);
-        note("", "the map will be kept in " + parameters_.map_file);
-        kept_generation_ = map_->locked([](FusedMap& fused) { return fused.map().generation(); });
-      }
+      loadKept();
     } catch (const std::exception& error) {
       note(std::string("map_file: ") + error.what() + "; nothing is saved there", "");
       ROS_ERROR_STREAM(problem_);
+      if (parameters_.read_only) pause();
     }
   }
   spinner_->start();
+}
+
+void MapKeeper::loadKept() {
+  const std::string place = placeOf("");
+  if (const std::unique_ptr<Database> stored = openStoredMap(place)) {
+    load(place, *stored, parameters_.read_only);
+    return;
+  }
+  check(!parameters_.read_only, "there is no map to find poses in");
+  checkPlace(place);
+  note("", "the map will be kept in " + placeName(place));
+  kept_generation_ = map_->locked([](FusedMap& fused) { return fused.map().generation(); });
+}
+
+void MapKeeper::pause() {
+  map_->locked([this](FusedMap& fused) {
+    mapper_.admission().setMode(MapMode::kPaused);
+    announce_("paused: there is no map to find poses in", fused);
+  });
 }
 
 std::string MapKeeper::placeOf(const std::string& path) const {
@@ -77,7 +89,12 @@ std::string MapKeeper::placeOf(const std::string& path) const {
   return isOnServer(place) ? place : absolutePath(place);
 }
 
-SaveReport MapKeeper::save(const std::string& place) {
+bool MapKeeper::isKeptAt(const std::string& place) const {
+  return !parameters_.map_file.empty() && place == placeOf("");
+}
+
+std::optional<SaveReport> MapKeeper::save(const std::string& place, bool only_changes) {
+  check(!parameters_.read_only || !isKeptAt(place), "read_only: the map there stays as it is");
   if (saver_ == nullptr || place != place_) {
     saver_ = std::make_unique<MapSaver>(place);
     place_ = place;
@@ -89,22 +106,25 @@ SaveReport MapKeeper::save(const std::string& place) {
     generation = fused.map().generation();
     saver_->capture(fused.map(), mapper_.describe(fused), map_->keyframesOf(generation));
   });
+  if (only_changes && !saver_->hasChanges()) return std::nullopt;
   const SaveReport saved = saver_->write();
-  if (!parameters_.map_file.empty() && place == placeOf("")) kept_generation_ = generation;
+  if (isKeptAt(place)) kept_generation_ = generation;
   return saved;
 }
 
 LoadedMap MapKeeper::load(const std::string& place, Database& stored, bool read_only) {
   auto saver = std::make_unique<MapSaver>(place);
-  LoadedMap loaded;
+  // Its parameters and its pool are the same at all times.
+  const BlockMap* map = map_->locked([](FusedMap& fused) { return &fused.map(); });
+  const ReadMap read(stored, *map);
+  const LoadedMap& loaded = read.loaded();
   map_->locked([&](FusedMap& fused) {
-    loaded = mapper_.load(fused, stored, {ros::WallTime::now(), ros::Time::now()});
+    mapper_.load(fused, read, stored.name(), {ros::WallTime::now(), ros::Time::now()});
     const uint32_t generation = fused.map().generation();
     map_->keepKeyframes(generation, loaded.keyframes);
     saver->adopt(fused.map(), loaded);
     mapper_.admission().setMode(read_only ? MapMode::kLocalisation : MapMode::kMapping);
-    const bool is_kept = !read_only && !parameters_.map_file.empty() && place == placeOf("");
-    kept_generation_ = is_kept ? generation : 0;
+    if (isKeptAt(place) && !read_only) kept_generation_ = generation;
     const std::string news = describe(loaded, stored.name(), read_only);
     note("", news);
     announce_(news, fused);
@@ -117,7 +137,9 @@ LoadedMap MapKeeper::load(const std::string& place, Database& stored, bool read_
 void MapKeeper::saveKept() {
   if (parameters_.map_file.empty() || parameters_.read_only) return;
   try {
-    if (isKept()) note("", describe(save(placeOf(""))));
+    if (!isKept()) return;
+    const std::optional<SaveReport> saved = save(placeOf(""), true);
+    note("", saved ? describe(*saved) : "");
   } catch (const std::exception& error) {
     note(std::string("the map is not saved: ") + error.what(), "");
     ROS_ERROR_STREAM_THROTTLE(60.0, problem_);
@@ -130,7 +152,7 @@ bool MapKeeper::isKept() {
   });
   if (kept_generation_ != 0 && generation != kept_generation_) {
     kept_generation_ = 0;
-    note("the map was emptied or replaced, and " + parameters_.map_file +
+    note("the map was emptied or replaced, and " + placeName(placeOf("")) +
              " keeps the one before; save_map with an empty path puts this one in its place",
          "");
     ROS_WARN_STREAM(problem_);
@@ -140,7 +162,7 @@ bool MapKeeper::isKept() {
 
 bool MapKeeper::serveSave(SaveMap::Request& request, SaveMap::Response& response) {
   try {
-    const SaveReport saved = save(placeOf(request.path));
+    const SaveReport saved = *save(placeOf(request.path), false);
     response.success = true;
     response.message = describe(saved);
     response.bytes = saved.bytes;
@@ -178,7 +200,7 @@ void MapKeeper::note(const std::string& problem, const std::string& news) {
 void MapKeeper::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(status_mutex_);
   if (!problem_.empty()) status.mergeSummary(DiagnosticStatus::WARN, problem_);
-  status.add("map file", parameters_.map_file.empty() ? "none" : parameters_.map_file);
+  status.add("map file", parameters_.map_file.empty() ? "none" : placeName(parameters_.map_file));
   if (!news_.empty()) status.add("map file's last news", news_);
 }
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "depth_fusion/submaps/map_file.h"
@@ -40,7 +41,12 @@ class MapKeeper {
 
  private:
   std::string placeOf(const std::string& path) const;
-  SaveReport save(const std::string& place);
+  void loadKept();
+  // Frames are neither tracked nor fused.
+  void pause();
+  bool isKeptAt(const std::string& place) const;
+  // Nothing if only changes were to be saved, and there are none.
+  std::optional<SaveReport> save(const std::string& place, bool only_changes);
   LoadedMap load(const std::string& place, Database& stored, bool read_only);
   // Saves to map_file what belongs there.
   void saveKept();

@@ -9,10 +9,11 @@
 namespace depth_fusion {
 
 MapReporter::MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle& handle, uint32_t view_queue,
-                         const std::function<void()>& greet)
+                         const CallbackGate& callbacks, const std::function<void()>& greet)
     : map_(map),
       view_publisher_(handle.advertise<MapViewMessage>(
-          "model_view", view_queue, [greet](const ros::SingleSubscriberPublisher&) { greet(); })),
+          "model_view", view_queue, [greet](const ros::SingleSubscriberPublisher&) { greet(); },
+          ros::SubscriberStatusCallback(), callbacks.token())),
       status_publisher_(handle.advertise<MapStatus>("status", 100, true)),
       picture_(handle) {}
 

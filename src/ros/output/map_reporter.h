@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 
+#include "ros/callbacks/callback_gate.h"
 #include "ros/in_process/frame_mapper.h"
 #include "ros/output/model_picture.h"
 
@@ -21,7 +22,7 @@ class MapReporter {
   // Publishes in the nodelet's namespace; answers that wait to be taken are view_queue at most. A tracker
   // that comes is to be told of the map: `greet` is called then.
   MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle& handle, uint32_t view_queue,
-              const std::function<void()>& greet);
+              const CallbackGate& callbacks, const std::function<void()>& greet);
 
   bool hasViewers() const { return view_publisher_.getNumSubscribers() > 0 || picture_.hasViewers(); }
   // The answer to the tracker for the frame of that header.

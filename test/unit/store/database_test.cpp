@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 #include <thread>
 
 #include "support/expect_error.h"
@@ -160,6 +161,9 @@ TEST(PostgresDatabase, ServersThatDoNotAnswerAreNamedWithoutThePassword) {
   };
   without_password([&] { openDatabase(mine.uri("m", "secret"), DatabaseAccess::kWrite); },
                    {"robot@127.0.0.1", "#m", "password"});
+  // On a server where nothing was ever kept.
+  expectError([&] { openDatabase(mine.uri("m"), DatabaseAccess::kRead); }, {"there is no map", "#m"});
+  EXPECT_EQ(openIfThere(mine.uri("m")), nullptr);
   const auto database = openDatabase(mine.uri("m"), DatabaseAccess::kWrite);
   mine.stop();
   expectError([&] { database->read(); }, {"cannot be reached", "is the server running"});
@@ -167,6 +171,25 @@ TEST(PostgresDatabase, ServersThatDoNotAnswerAreNamedWithoutThePassword) {
   EXPECT_EQ(database->read()->get("a"), std::nullopt) << "it can be used on";
   without_password(
       [&] { openDatabase("postgresql://robot:secret@127.0.0.1:99999/x", DatabaseAccess::kRead); }, {"99999"});
+  for (const char* uri : {"postgresql://robot:secret%zz@host/x", "postgresql://robot:a#secret@host/x#kitchen",
+                          "postgresql://robot:secret@host:/a b:/x"})
+    without_password([&] { openDatabase(uri, DatabaseAccess::kRead); }, {});
+  EXPECT_EQ(placeName("postgresql://robot:secret@host/x#kitchen"), "postgresql://robot@host/x#kitchen");
+}
+
+// The key is too long for an index, and noise, which is not compressed.
+TEST(PostgresDatabase, AWriterInWhichAStatementFailedDoesNotCommit) {
+  if (PostgresServer::programs().empty()) GTEST_SKIP() << "no PostgreSQL server here";
+  const auto database = openDatabase(server().uri("failing"), DatabaseAccess::kWrite);
+  const auto writer = database->write();
+  writer->put("a", "1");
+  std::mt19937 random(1);
+  std::string key(20000, '\0');
+  for (char& byte : key) byte = static_cast<char>(random());
+  writer->put(key, "2");
+  EXPECT_THROW(writer->get("a"), Error);
+  EXPECT_THROW(writer->commit(), Error);
+  EXPECT_EQ(database->read()->get("a"), std::nullopt);
 }
 
 TEST(PostgresDatabase, MapsOfOneServerAreApart) {

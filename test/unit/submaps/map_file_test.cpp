@@ -249,6 +249,57 @@ TEST_F(MapFile, ColourComesBackAndMayBeLeftOut) {
   expectSame(colored, map_);
 }
 
+// A map goes on in one with another choice of layers: what is stored is one map all the same.
+TEST_F(MapFile, AMapGoesOnWithAnotherChoiceOfLayers) {
+  MapParameters with_color = smallMap();
+  with_color.color = true;
+  for (const bool color_first : {false, true}) {
+    const std::string path = folder_ / (color_first ? "colored.map" : "grey.map");
+    BlockMap first(compute(), color_first ? with_color : smallMap());
+    ChangingMap(compute(), first).show(sphere({0.0, 0.0, 0.0}, 0.15));
+    MapSaver first_saver(path);
+    save(first_saver, first);
+    BlockMap second(compute(), color_first ? smallMap() : with_color);
+    const LoadedMap loaded = load(path, second);
+    MapSaver saver(path);
+    saver.adopt(second, loaded);
+    ChangingMap(compute(), second).show(sphere({0.02, 0.0, 0.0}, 0.14));
+    save(saver, second, loaded.keyframes);
+    BlockMap third(compute(), with_color);
+    EXPECT_EQ(load(path, third).description.layers.size(), color_first ? 1u : 2u);
+    expectSame(second, third);
+  }
+}
+
+TEST_F(MapFile, WhatHasNotChangedNeedNoSave) {
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  const Keyframes keyframes = {someKeyframe(1.0)};
+  MapSaver saver(path_);
+  save(saver, map_, keyframes);
+  const auto changesWith = [&](const Keyframes& now) {
+    saver.prepare();
+    saver.capture(map_, describing(map_), now);
+    return saver.hasChanges();
+  };
+  EXPECT_FALSE(changesWith(keyframes));
+  EXPECT_TRUE(changesWith({someKeyframe(1.0)}));
+  EXPECT_TRUE(changesWith({}));
+  changing_.show(sphere({0.01, 0.0, 0.0}, 0.15));
+  EXPECT_TRUE(changesWith(keyframes));
+}
+
+TEST_F(MapFile, AFileThatWasMovedAwayIsMadeAnew) {
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
+  MapSaver saver(path_);
+  save(saver, map_);
+  std::filesystem::rename(path_, folder_ / "old.map");
+  changing_.show(sphere({0.0, 0.0, 0.0}, 0.14));
+  save(saver, map_);
+  BlockMap other(compute(), smallMap());
+  load(path_, other);
+  expectSame(map_, other);
+}
+
 TEST_F(MapFile, WhatIsDamagedIsNamedAndNothingIsLost) {
   changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
   MapSaver saver(path_);
