@@ -103,7 +103,7 @@ Solids personBefore(const Pose& T_W_D, double time_s) {
 Gaze oneSideGaze(const Sway& walk, const Sway& look) {
   Gaze gaze;
   gaze.eye_W = {0.3 * walk(0, 13.0), 0.3 * walk(1, 9.0), 1.55 + 0.1 * walk(2, 7.0)};
-  gaze.target_W = gaze.eye_W + direction((60.0 + 20.0 * look(3, 4.0)) * kRadPerDeg,
+  gaze.target_W = gaze.eye_W + direction((60.0 + 8.0 * look(3, 4.0)) * kRadPerDeg,
                                          (-28.0 + 7.0 * look(4, 6.0)) * kRadPerDeg);
   return gaze;
 }
