@@ -16,6 +16,7 @@ struct RunOptions {
   std::string device;
   size_t max_frames = 0;  // 0 = all
   bool no_mesh = false;
+  bool self_calibrate = false;  // from the recording, before it is fused
   RecordingOptions recording;
   PipelineParameters parameters;
 };
