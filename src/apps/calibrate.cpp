@@ -1,10 +1,8 @@
 // Measures the systematic errors of a depth sensor from a recording of an ordinary scene.
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 
 #include "apps/calibrate/report.h"
-#include "apps/calibrate/tracked_recording.h"
 #include "apps/command_line.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
@@ -29,9 +27,6 @@ constexpr char kDescription[] =
     "Examples:\n"
     "  calibrate --input room.bag --output calibrated\n"
     "  reconstruct --input desk.bag --output out --params calibrated/calibration.yaml\n";
-
-// A readout that is fewer standard deviations from 0 is that of a global shutter.
-constexpr double kReadoutSigmas = 3.0;
 
 struct Options {
   std::string input, output, trajectory_file, device;
@@ -61,34 +56,27 @@ void addOptions(CLI::App& app, Options& options) {
   app.add_option("--device", options.device, "OpenCL device, as of reconstruct");
 }
 
-void findScale(const Options& options, const TrackedRecording& tracked, const Trajectory& truth,
-               CalibrationReport& report) {
+void findScale(const Options& options, const Trajectory& truth, CalibrationReport& report) {
+  const TrackedRecording& tracked = report.calibration.tracked;
+  PipelineParameters& corrected = report.calibration.corrected;
   if (!truth.empty()) {
     report.poses = findTimeOffset(motionsOf(tracked.trajectory), truth);
     report.scale = scaleAgainst(tracked.trajectory, truth);
   } else if (options.distance_m.value > 0.0) {
     report.scale = scaleAgainst(tracked.trajectory, options.distance_m);
   }
+  std::string& offsets = corrected.preprocessing.depth_offsets_per_m;
   if (report.scale) {
     // The offsets belong to the depth before it is scaled.
-    report.corrected.registration.depth_scale *= static_cast<float>(report.scale->value);
-    report.corrected.preprocessing.depth_offsets_per_m =
-        depthOffsetsText(report.depth.offsets_per_m / report.scale->value);
+    corrected.registration.depth_scale *= static_cast<float>(report.scale->value);
+    if (!offsets.empty()) offsets = depthOffsetsText(parseDepthOffsets(offsets) / report.scale->value);
   }
   if (report.poses && report.poses->found) {
-    report.corrected.preprocessing.stamp_delay_s -= static_cast<float>(report.poses->offset_s.value);
+    corrected.preprocessing.stamp_delay_s -= static_cast<float>(report.poses->offset_s.value);
   }
 }
 
-void correct(const DepthCalibration& depth, PreprocessingParameters& parameters) {
-  parameters.depth_offsets_per_m = depthOffsetsText(depth.offsets_per_m);
-  if (!depth.readout_observed) return;
-  const Estimate& readout = depth.readout_s;
-  parameters.readout_s =
-      readout.value > kReadoutSigmas * readout.sigma ? static_cast<float>(readout.value) : 0.0f;
-}
-
-void calibrate(Options& options) {
+void calibrate(const Options& options) {
   ComputeContext compute(options.device);
   const auto open = [&] {
     return registered(openRecording(options.input, options.recording), compute,
@@ -101,21 +89,14 @@ void calibrate(Options& options) {
 
   CalibrationReport report;
   report.input = options.input;
-  options.parameters.preprocessing.depth_offsets_per_m.clear();
-  TrackedRecording tracked = track(compute, *open(), options.parameters, options.range);
-  report.depth = calibrateDepth(compute, options.parameters, tracked.frames);
-  report.frames_used = tracked.frames.size();
-  correct(report.depth, options.parameters.preprocessing);
-
+  report.calibration = calibrateFrom(compute, open, options.parameters, options.range,
+                                     [](const std::string& text) { std::cout << text << std::endl; });
   // Times and scale are those of poses that the corrected depth gives.
-  tracked = track(compute, *open(), options.parameters, options.range);
-  report.frames_read = tracked.read;
-  report.frames_tracked = tracked.trajectory.size();
+  const TrackedRecording& tracked = report.calibration.tracked;
   report.color = findTimeOffset(tracked.color_motions, tracked.trajectory);
   if (!tracked.color_problem.empty() && !report.color.found)
     report.color.reason += " (" + tracked.color_problem + ")";
-  report.corrected = options.parameters;
-  findScale(options, tracked, truth, report);
+  findScale(options, truth, report);
   writeCalibration(options.output, report);
   std::cout << reportText(report) << "written: " << options.output
             << "/calibration.yaml, calibration.png, report.json" << std::endl;

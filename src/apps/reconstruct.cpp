@@ -3,6 +3,7 @@
 
 #include "apps/command_line.h"
 #include "apps/reconstruct/run.h"
+#include "apps/reconstruct/self_calibrate.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/pipeline/stored_map.h"
 #include "depth_fusion/submaps/map_file.h"
@@ -69,6 +70,10 @@ void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
   app.add_option("--device", options.device,
                  "OpenCL device: index, part of its name, cpu or gpu; `list` shows them");
   app.add_flag("--color", map.color, "fuse colour, too: mesh.ply has the vertices' colours");
+  app.add_flag(
+      "--self-calibrate", options.self_calibrate,
+      "find what the depth is off by from the recording (its first 1000 frames are read twice more), "
+      "and correct it; see docs/calibration.md");
   app.add_flag("--no-mesh", options.no_mesh, "track and fuse only, for timing");
   app.add_flag("--print-params", arguments.print_parameters,
                "list every parameter with its value, range and meaning");
@@ -98,7 +103,7 @@ int run(const Arguments& arguments, RunOptions& options) {
     return 0;
   }
   check(!options.inputs.empty() && !options.output.empty(), "--input and --output are needed; see --help");
-  return reconstruct(options);
+  return reconstruct(options.self_calibrate ? selfCalibrated(options) : options);
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ void stampColorLater(const std::string& folder) {
   }
 }
 
-void writeSwayingRecording(const std::string& folder) {
-  const FaultySensor sensor(kCamera, {bent, 0.0});
+void writeSwayingRecording(const std::string& folder, const SensorFaults& faults) {
+  const FaultySensor sensor(kCamera, faults);
   const auto writer = createTumFolder(folder);
   for (int i = 0; i < kFrames; ++i) {
     const double time_s = 1.0 + i / 30.0;
@@ -75,7 +75,7 @@ double ateOf(const std::string& input, const std::string& output, const std::vec
 TEST(Calibrate, FindsWhatIsWrongAndReconstructGainsByIt) {
   const TemporaryFolder folder;
   const std::string input = folder / "recording", output = folder / "calibrated";
-  writeSwayingRecording(input);
+  writeSwayingRecording(input, {bent, 0.0});
   const AppRun run =
       runApp("calibrate", {"--input", input, "--output", output, "--trajectory", input + "/groundtruth.txt"});
   ASSERT_EQ(run.status, 0) << run.errors;
@@ -98,6 +98,29 @@ TEST(Calibrate, FindsWhatIsWrongAndReconstructGainsByIt) {
   const double after_m = ateOf(input, folder / "after", {"--params", output + "/calibration.yaml"});
   std::printf("ATE %.2f mm before, %.2f after\n", 1e3 * before_m, 1e3 * after_m);
   EXPECT_LT(after_m, 0.6 * before_m);
+  const double self_m = ateOf(input, folder / "self", {"--self-calibrate"});
+  std::printf("ATE %.2f mm with --self-calibrate\n", 1e3 * self_m);
+  EXPECT_LT(self_m, 0.6 * before_m);
+}
+
+TEST(Calibrate, LeavesASoundSensorAlone) {
+  const TemporaryFolder folder;
+  writeSwayingRecording(folder / "recording", {});
+  const AppRun run = runApp("calibrate", {"--input", folder / "recording", "--output", folder / "out"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  std::cout << run.output;
+  const std::vector<double> offsets = readReport(folder / "out")["offsets_per_m"];
+  for (const double offset : offsets) EXPECT_NEAR(offset, 0.0, 0.003);
+}
+
+TEST(Calibrate, ReconstructGoesOnWhereTheRecordingTellsNothing) {
+  const TemporaryFolder folder;
+  writeStillRecording(folder / "still", true);
+  const AppRun run = runApp("reconstruct", {"--input", folder / "still", "--output", folder / "out",
+                                            "--no-mesh", "--self-calibrate"});
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.output.find("not calibrated: only"), std::string::npos) << run.output;
+  EXPECT_EQ(readReport(folder / "out")["parameters"]["preprocessing/depth_offsets_per_m"], "");
 }
 
 TEST(Calibrate, RefusesWhatTellsNothingInOneLine) {

@@ -22,25 +22,6 @@ __attribute__((format(printf, 1, 2))) std::string line(const char* format, ...) 
   return std::string(text) + "\n";
 }
 
-std::string depthText(const DepthCalibration& depth) {
-  double least = 0.0, largest = 0.0;
-  cv::minMaxLoc(depth.offsets_per_m, &least, &largest);
-  const int total = static_cast<int>(depth.offsets_per_m.total());
-  std::string text =
-      line("depth offsets: %+.1f to %+.1f mm at 1 m, give or take %.1f; %d of %d are determined", 1e3 * least,
-           1e3 * largest, 1e3 * cv::mean(depth.sigmas_per_m)[0], depth.observed_offsets, total);
-  text += depth.planes > 0 ? line("  planes are flat to %.1f mm RMS at 1 m before, to %.1f after",
-                                  1e3 * depth.before.rms_per_m, 1e3 * depth.after.rms_per_m)
-                           : line("  no plane was seen");
-  const Estimate& readout = depth.readout_s;
-  text += depth.readout_observed
-              ? line("readout: %.1f +- %.1f ms from the first row to the last", 1e3 * readout.value,
-                     1e3 * readout.sigma)
-              : line("readout: not known (+- %.0f ms), the sensor moves too slowly; left as it is",
-                     1e3 * readout.sigma);
-  return text;
-}
-
 std::string timeText(const CalibrationReport& report) {
   const TimeOffset& color = report.color;
   std::string text = color.found ? line("colour: taken at its stamp %+.1f +- %.1f ms, by the depth's clock",
@@ -73,12 +54,26 @@ Json toJson(const TimeOffset& offset) {
 
 Json toJson(const cv::Mat& grid) { return std::vector<float>(grid.begin<float>(), grid.end<float>()); }
 
+Json toJson(const PartVerdict& verdict) {
+  return {{"applied", verdict.applied}, {"gain_sigmas", verdict.gain_sigmas}};
+}
+
+Json partsJson(const DepthCalibration& depth) {
+  Json json;
+  const char* names[kPartCount] = {"mean", "tilt", "shape", "readout"};
+  for (size_t part = 0; part < kPartCount; ++part) json[names[part]] = toJson(depth.parts[part]);
+  return json;
+}
+
 Json toJson(const CalibrationReport& report) {
-  const DepthCalibration& depth = report.depth;
+  const SelfCalibration& calibration = report.calibration;
+  const DepthCalibration& depth = calibration.depth;
   Json json = {
       {"input", report.input},
       {"frames",
-       {{"read", report.frames_read}, {"tracked", report.frames_tracked}, {"used", report.frames_used}}},
+       {{"read", calibration.tracked.read},
+        {"tracked", calibration.tracked.trajectory.size()},
+        {"used", calibration.frames_used}}},
       {"pairs", depth.pairs},
       {"planes", depth.planes},
       {"offsets_per_m", toJson(depth.offsets_per_m)},
@@ -86,6 +81,9 @@ Json toJson(const CalibrationReport& report) {
       {"observed_offsets", depth.observed_offsets},
       {"flatness_per_m", {{"before", depth.before.rms_per_m}, {"after", depth.after.rms_per_m}}},
       {"readout_s", toJson(depth.readout_s)},
+      {"parts", partsJson(depth)},
+      {"explained", {{"before", calibration.explained_before}, {"after", calibration.tracked.explained}}},
+      {"refused", calibration.refused},
       {"color_offset_s", toJson(report.color)}};
   if (report.poses) json["pose_offset_s"] = toJson(*report.poses);
   if (report.scale) json["depth_scale"] = toJson(*report.scale);
@@ -95,26 +93,28 @@ Json toJson(const CalibrationReport& report) {
 }  // namespace
 
 std::string reportText(const CalibrationReport& report) {
+  const SelfCalibration& calibration = report.calibration;
   return line("%zu frames read, %zu tracked, %zu used: %d pairs that see the same, %d planes",
-              report.frames_read, report.frames_tracked, report.frames_used, report.depth.pairs,
-              report.depth.planes) +
-         depthText(report.depth) + timeText(report) + scaleText(report);
+              calibration.tracked.read, calibration.tracked.trajectory.size(), calibration.frames_used,
+              calibration.depth.pairs, calibration.depth.planes) +
+         calibrationText(calibration) + timeText(report) + scaleText(report);
 }
 
 void writeCalibration(const std::string& folder, const CalibrationReport& report) {
   std::string yaml =
       "# The depth of the sensor of " + report.input + ", by calibrate; for its images as they are there.\n";
-  PipelineParameters corrected = report.corrected;
+  PipelineParameters corrected = report.calibration.corrected;
   const ParameterTable table = corrected.table();
   const auto line = [&](const std::string& stage, const std::string& name) {
     return "  " + name + ": " + valueText(findParameter(table, stage + "/" + name)) + "\n";
   };
   yaml += "registration:\n" + line("registration", "depth_scale") + "preprocessing:\n";
-  for (const std::string name : {"depth_offsets_per_m", "readout_s", "stamp_delay_s"})
-    yaml += line("preprocessing", name);
+  if (!corrected.preprocessing.depth_offsets_per_m.empty())
+    yaml += line("preprocessing", "depth_offsets_per_m");
+  for (const std::string name : {"readout_s", "stamp_delay_s"}) yaml += line("preprocessing", name);
   writeText(folder + "/calibration.yaml", yaml);
   writeText(folder + "/report.json", toJson(report).dump(2) + "\n");
-  writePicture(folder + "/calibration.png", drawCalibration(report.depth));
+  writePicture(folder + "/calibration.png", drawCalibration(report.calibration.depth));
 }
 
 }  // namespace depth_fusion

@@ -5,19 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "depth_fusion/pipeline/pipeline_parameters.h"
-#include "tools/calibration/time_offset.h"
+#include "tools/calibration/self_calibration.h"
 
 namespace depth_fusion {
 
 struct CalibrationReport {
   std::string input;
-  size_t frames_read = 0, frames_tracked = 0, frames_used = 0;
-  DepthCalibration depth;
+  SelfCalibration calibration;      // its corrected parameters have all that was found
   TimeOffset color;                 // of the colour's stamps against the depth's
   std::optional<TimeOffset> poses;  // of the depth's stamps against the given trajectory's
   std::optional<Estimate> scale;    // against the trajectory or the distance
-  PipelineParameters corrected;     // the parameters with all that was found
 };
 
 // Says for the terminal what was found, how sure it is, and what is not known and why.

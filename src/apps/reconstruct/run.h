@@ -18,6 +18,7 @@ struct RunOptions {
   std::string continued;  // a map to go on with; empty: none
   size_t max_frames = 0;  // 0 = all
   bool no_mesh = false;
+  bool self_calibrate = false;  // from the recording, before it is fused
   RecordingOptions recording;
   PipelineParameters parameters;
 };

@@ -6,6 +6,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/depth_correction.h"
+#include "tools/calibration/calibration_parts.h"
 #include "tools/calibration/frame_pair.h"
 #include "tools/calibration/plane_patches.h"
 
@@ -25,9 +26,6 @@ constexpr double kObservedReadout_s = 0.008;
 // Residuals of neighbouring pixels, and of frames with the same noise pattern, depend on each other: so many
 // count as one.
 constexpr double kCorrelatedResiduals = 200.0;
-// The method itself is off by these, as simulated recordings show; no uncertainty is smaller.
-constexpr double kMethodOffsetSigma_per_m = 0.0015;
-constexpr double kMethodReadoutSigma_s = 0.0015;
 // Uncertainties are taken from how much so many parts of the frames contradict each other.
 constexpr int kSegments = 10;
 
@@ -74,8 +72,9 @@ class Calibrator {
         preprocessor_(compute, parameters.preprocessing, frames.front().frame.intrinsics,
                       parameters.depth_sensor),
         prior_(priorHessian()) {
-    estimate_.setZero();
-    first_readout_s_ = estimate_[kReadoutIndex] = parameters.preprocessing.readout_s;
+    defaults_.setZero();
+    defaults_[kReadoutIndex] = parameters.preprocessing.readout_s;
+    estimate_ = defaults_;
   }
 
   DepthCalibration run() {
@@ -144,26 +143,16 @@ class Calibrator {
   }
 
   void solve() {
-    NormalEquations sum;
     for (NormalEquations& segment : segments_) {
       segment.hessian /= kCorrelatedResiduals;
       segment.gradient /= kCorrelatedResiduals;
-      sum.add(segment);
     }
-    ParameterVector from_prior = estimate_;
-    from_prior[kReadoutIndex] -= first_readout_s_;
-    const Eigen::LDLT<ParameterMatrix> solver(sum.hessian + prior_);
-    const ParameterVector step = -solver.solve(sum.gradient + prior_ * from_prior);
-    estimate_ += step;
-    ParameterMatrix scatter = prior_;
-    for (const NormalEquations& segment : segments_) {
-      const ParameterVector pull = segment.gradient + segment.hessian * step;
-      scatter += kSegments / (kSegments - 1.0) * pull * pull.transpose();
-    }
-    const ParameterMatrix covariance = solver.solve(solver.solve(scatter).transpose());
-    ParameterVector method = ParameterVector::Constant(kMethodOffsetSigma_per_m);
-    method[kReadoutIndex] = kMethodReadoutSigma_s;
-    sigmas_ = (covariance.diagonal().cwiseMax(0.0) + method.cwiseAbs2()).cwiseSqrt();
+    const SegmentedSystem system(segments_, prior_, estimate_, defaults_);
+    parts_ = system.verdicts();
+    sigmas_ = system.sigmas();
+    if (sigmas_[kReadoutIndex] >= kObservedReadout_s)
+      parts_[static_cast<size_t>(CalibrationPart::kReadout)].applied = false;
+    estimate_ = system.solution(parts_);
   }
 
   void describe(DepthCalibration& result) const {
@@ -172,6 +161,7 @@ class Calibrator {
     result.observed_offsets =
         static_cast<int>((sigmas_.head<kReadoutIndex>().array() < kObservedOffset_per_m).count());
     result.readout_s = {estimate_[kReadoutIndex], sigmas_[kReadoutIndex]};
+    result.parts = parts_;
     result.readout_observed = sigmas_[kReadoutIndex] < kObservedReadout_s;
   }
 
@@ -180,9 +170,9 @@ class Calibrator {
   DepthSensorParameters sensor_;
   DepthPreprocessor preprocessor_;
   ParameterMatrix prior_;
-  double first_readout_s_ = 0.0;
-  ParameterVector estimate_;
+  ParameterVector defaults_, estimate_;
   ParameterVector sigmas_;
+  std::vector<PartVerdict> parts_;
   std::vector<NormalEquations> segments_;
   std::vector<CalibrationView> views_;
   std::map<std::pair<size_t, size_t>, Pose> T_B_A_;  // of the frames' numbers

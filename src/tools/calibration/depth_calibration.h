@@ -17,6 +17,21 @@ struct Estimate {
   double sigma = 0.0;  // standard deviation
 };
 
+// The parts of a calibration, each applied or held at its default as a whole.
+enum class CalibrationPart {
+  kMean,     // of the depth offsets
+  kTilt,     // what of them grows along rows and columns
+  kShape,    // the rest of them
+  kReadout,  // of the rolling shutter
+};
+constexpr int kPartCount = 4;
+
+struct PartVerdict {
+  bool applied = false;
+  // By how many standard deviations frames fit better with it that it was not estimated from.
+  double gain_sigmas = 0.0;
+};
+
 struct CalibrationFrame {
   RgbdFrame frame;                       // its colour is not used
   Pose T_W_D = Pose::Identity();         // as tracked, good to a few centimetres
@@ -31,15 +46,20 @@ struct DepthResiduals {
 };
 
 struct DepthCalibration {
-  cv::Mat offsets_per_m;     // of the inverse depth (depth_correction.h); near 0 where nothing tells
-  cv::Mat sigmas_per_m;      // their standard deviations, for each offset
-  int observed_offsets = 0;  // those that the recording, and not the prior alone, determines
-  Estimate readout_s;
+  cv::Mat offsets_per_m;           // of the inverse depth (depth_correction.h), of the applied parts alone
+  cv::Mat sigmas_per_m;            // their standard deviations, for each offset
+  int observed_offsets = 0;        // those that the recording, and not the prior alone, determines
+  std::vector<PartVerdict> parts;  // by CalibrationPart
+  Estimate readout_s;              // the given one if it is not applied
   bool readout_observed = false;
   int pairs = 0;   // of frames that see the same surface
   int planes = 0;  // in all frames
   DepthResiduals before, after;
 };
+
+inline bool isApplied(const DepthCalibration& calibration, CalibrationPart part) {
+  return calibration.parts[static_cast<size_t>(part)].applied;
+}
 
 // Finds the depth offsets and the readout that make the frames fit best. The frames are in the order of time.
 // The parameters say the sensor's noise, range, stamp delay and a first readout. Throws Error, which says

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "shared/types.h"
+
 namespace depth_fusion {
 namespace {
 
@@ -71,8 +73,9 @@ class PlaneFit {
   LocalSystem<3> system(const Plane& plane) const {
     LocalSystem<3> result;
     for (const ViewPoint& point : points_) {
+      const ViewPoint on_plane = onPlane(point, plane);
       SparseRow row;
-      view_.addDerivatives(point, -inverseDepth(point) * plane, row);
+      view_.addDerivatives(on_plane, -inverseDepth(on_plane) * plane, row);
       result.add(-rayOf(point), row, residualOf(point, plane), weightOf(point, plane));
     }
     return result;
@@ -85,8 +88,17 @@ class PlaneFit {
   }
 
  private:
+  // Derivatives and weights are those where the ray meets the plane. At the measured point their noise would
+  // correlate with the residual's, and the least squares would prefer depth that shrinks.
+  ViewPoint onPlane(const ViewPoint& point, const Plane& plane) const {
+    ViewPoint moved = point;
+    moved.p_D = rayOf(point) / plane.dot(rayOf(point));
+    moved.sigma_m = AXIAL_SIGMA_M(view_.sensor(), moved.p_D.z());
+    return moved;
+  }
+
   double weightOf(const ViewPoint& point, const Plane& plane) const {
-    const double sigma = inverseSigma(point);
+    const double sigma = inverseSigma(onPlane(point, plane));
     return tukeyWeight(residualOf(point, plane) / sigma, cutoff_sigmas_) / (sigma * sigma);
   }
 

@@ -8,6 +8,7 @@
 #include "support/expect_error.h"
 #include "support/faulty_sensor.h"
 #include "support/test_compute.h"
+#include "tools/calibration/plane_patches.h"
 #include "tools/plots/calibration_picture.h"
 
 namespace depth_fusion {
@@ -89,6 +90,24 @@ TEST(DepthCalibration, FindsNothingInASoundSensor) {
   EXPECT_LT(error.rms_per_m, 0.002);
   EXPECT_LT(error.largest_sigmas, 3.0);
   EXPECT_NEAR(found.readout_s.value, 0.0, 0.006);
+  for (const PartVerdict& part : found.parts) EXPECT_LT(part.gain_sigmas, 3.0);
+}
+
+// Planes stay planes under an offset that is the same everywhere, so that they must not ask for one; with
+// derivatives at the noisy points they asked for 6 mm at 1 m.
+TEST(DepthCalibration, PlanesAskForNoCommonOffset) {
+  const FaultySensor sensor(kCamera, {});
+  NormalEquations sum;
+  DepthPreprocessor preprocessor(compute(), {}, kCamera, {});
+  ResidualMap map;
+  for (const CalibrationFrame& frame : framesOf(sensor, 20))
+    sum.add(fitPlanes(CalibrationView(preprocessor, frame), 1, 3.0, map).equations);
+  ParameterVector common = ParameterVector::Ones();
+  common[kReadoutIndex] = 0.0;
+  // The step of the common offset under a prior of 5 mm, as strong as one in 200 residuals.
+  const double asked_per_m = -common.dot(sum.gradient) / 200.0 * 0.005 * 0.005;
+  std::printf("planes ask for %.2f mm at 1 m\n", 1e3 * asked_per_m);
+  EXPECT_NEAR(asked_per_m, 0.0, 0.0005);
 }
 
 TEST(DepthCalibration, RefusesFramesThatTellNothing) {

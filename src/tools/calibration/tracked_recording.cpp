@@ -1,7 +1,6 @@
-#include "apps/calibrate/tracked_recording.h"
+#include "tools/calibration/tracked_recording.h"
 
 #include <algorithm>
-#include <iostream>
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
@@ -74,12 +73,12 @@ class ColorMotions {
 };
 
 // Reads the next frame, past those that cannot be read; the first of them is said.
-std::optional<RgbdFrame> nextFrame(Recording& recording, size_t& unreadable) {
+std::optional<RgbdFrame> nextFrame(Recording& recording, const Say& say, size_t& unreadable) {
   while (true) {
     try {
       return recording.next();
     } catch (const Error& error) {
-      if (unreadable++ == 0) std::cerr << "calibrate: " << error.what() << "; left out" << std::endl;
+      if (unreadable++ == 0) say(std::string(error.what()) + "; left out");
       check(unreadable < recording.frameCount(),
             "no frame can be read; the last: " + std::string(error.what()));
     }
@@ -89,16 +88,16 @@ std::optional<RgbdFrame> nextFrame(Recording& recording, size_t& unreadable) {
 }  // namespace
 
 TrackedRecording track(ComputeContext& compute, Recording& recording, const PipelineParameters& parameters,
-                       const TrackingRange& range) {
+                       const TrackingRange& range, const Say& say) {
   TrackedRecording tracked;
   size_t unreadable = 0;
-  for (size_t i = 0; i < range.first; ++i) nextFrame(recording, unreadable);
+  for (size_t i = 0; i < range.first; ++i) nextFrame(recording, say, unreadable);
   std::unique_ptr<ReconstructionPipeline> pipeline;
   ColorMotions color_motions(parameters.texture_odometry);
   FrameChoice choice;
   std::string reason;
   while (range.count == 0 || tracked.read < range.count) {
-    const std::optional<RgbdFrame> frame = nextFrame(recording, unreadable);
+    const std::optional<RgbdFrame> frame = nextFrame(recording, say, unreadable);
     if (!frame) break;
     if (!pipeline)
       pipeline = std::make_unique<ReconstructionPipeline>(compute, parameters, frame->intrinsics);
@@ -110,13 +109,16 @@ TrackedRecording track(ComputeContext& compute, Recording& recording, const Pipe
       continue;
     }
     tracked.trajectory.push_back({frame->stamp_s, result.T_W_D});
+    tracked.explained += result.explained;
     choice.offer(*frame, result.T_W_D);
-    if (tracked.read % 100 == 0) std::cout << tracked.read << " frames tracked" << std::endl;
+    if (tracked.read % 100 == 0) say(std::to_string(tracked.read) + " frames tracked");
   }
   check(2 * tracked.trajectory.size() >= std::max<size_t>(tracked.read, 1),
         "only " + std::to_string(tracked.trajectory.size()) + " of " + std::to_string(tracked.read) +
             " frames could be tracked" + (reason.empty() ? "" : " (" + reason + ")") +
             "; calibration needs a recording that reconstruct can follow");
+  // The first frame begins the map, which says nothing of how well it fits.
+  tracked.explained /= std::max<double>(static_cast<double>(tracked.trajectory.size()) - 1.0, 1.0);
   tracked.frames = choice.take();
   for (CalibrationFrame& frame : tracked.frames)
     frame.velocity = velocityAt(tracked.trajectory, frame.frame.stamp_s);

@@ -1,6 +1,8 @@
 // A recording, tracked: what calibration needs of it.
 #pragma once
 
+#include <functional>
+
 #include "depth_fusion/recording/recording.h"
 #include "tools/calibration/time_offset.h"
 
@@ -12,6 +14,7 @@ struct TrackedRecording {
   std::vector<MeasuredMotion> color_motions;  // between colour images, by their stamps
   std::string color_problem;                  // why the last frame has no motion
   size_t read = 0;
+  double explained = 0.0;  // how much of a frame the map explains (TrackingResult), in the mean
 };
 
 struct TrackingRange {
@@ -19,9 +22,12 @@ struct TrackingRange {
   size_t count = 0;  // 0: all
 };
 
-// Throws Error if fewer than half of the frames can be tracked.
+using Say = std::function<void(const std::string&)>;
+
+// Says how far it is, and which frame could not be read. Throws Error if fewer than half of the frames can be
+// tracked.
 TrackedRecording track(ComputeContext& compute, Recording& recording, const PipelineParameters& parameters,
-                       const TrackingRange& range);
+                       const TrackingRange& range, const Say& say);
 
 // Returns the motions from each pose to the next.
 std::vector<MeasuredMotion> motionsOf(const Trajectory& trajectory);
