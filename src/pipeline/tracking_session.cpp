@@ -146,7 +146,7 @@ TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const Frame
                                            const TrackingResult& lost, StageTimers& timers) {
   const StageTimers::Scope timer(timers, "relocalisation");
   if (given_) {
-    const TrackingResult result = searchAtGiven(timers);
+    TrackingResult result = searchAtGiven(timers);
     if (result.status != TrackingStatus::kLost) return result;
   }
   for (const KeyframePtr& keyframe : relocaliser_.candidates(features)) {

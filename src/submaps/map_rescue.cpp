@@ -85,14 +85,14 @@ class Rescue {
   // What another layer lacks of them is cleared.
   void saveOther(uint32_t submap, const LayerRow& layer, GroupBlocks missing) {
     const int block_size = blockSizeOf(*description_);
-    forEachGroup(
-        rows_, submap, layer, block_size, result_.problems,
-        [&](const std::string& key, const std::string& row, const BlockIndex& index, BlockGroup group) {
-          const auto place = missing.find(index);
-          if (place == missing.end() || place->second != group.blocks) return;
-          writer_.put(key, row);
-          missing.erase(place);
-        });
+    forEachGroup(rows_, submap, layer, block_size, result_.problems,
+                 [&](const std::string& key, const std::string& row, const BlockIndex& index,
+                     const BlockGroup& group) {
+                   const auto place = missing.find(index);
+                   if (place == missing.end() || place->second != group.blocks) return;
+                   writer_.put(key, row);
+                   missing.erase(place);
+                 });
     for (const auto& [index, blocks] : missing)
       writer_.put(blocksKey(submap, layer.name, index),
                   blocksRow(clearedGroup(blocks, layer, block_size), index, layer, block_size));

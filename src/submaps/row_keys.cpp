@@ -47,8 +47,7 @@ std::string blocksKey(uint32_t submap, const std::string& layer, const BlockInde
 BlockIndex groupOfKey(const std::string& key, const std::string& prefix) {
   check(key.size() == prefix.size() + 12, "the map has a row of blocks without a place");
   const size_t begin = prefix.size();
-  const BlockIndex group(orderedNumber(key, begin + 8), orderedNumber(key, begin + 4),
-                         orderedNumber(key, begin));
+  BlockIndex group(orderedNumber(key, begin + 8), orderedNumber(key, begin + 4), orderedNumber(key, begin));
   checkBlock(group);
   return group;
 }

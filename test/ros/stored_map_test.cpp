@@ -4,21 +4,16 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "depth_fusion/submaps/map_check.h"
 #include "depth_fusion/submaps/map_file.h"
+#include "support/file_bytes.h"
 #include "support/live_graph.h"
 #include "support/postgres_server.h"
 #include "support/temporary_folder.h"
 
 namespace depth_fusion {
 namespace {
-
-std::string readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 class StoredMap : public LiveGraph {
  protected:
@@ -94,7 +89,7 @@ TEST_F(StoredMap, TheSensorIsFoundInTheFirstFrame) {
 
 TEST_F(StoredMap, LocalisationChangesNoByte) {
   const Pose T_map_next = saveSomeFrames(path_);
-  const std::string before = readFile(path_);
+  const std::string before = fileBytes(path_);
   const LoadMap::Response loaded = load(path_, true);
   ASSERT_TRUE(loaded.success) << loaded.message;
   const RgbdFrame again = later(next_);
@@ -103,7 +98,7 @@ TEST_F(StoredMap, LocalisationChangesNoByte) {
   EXPECT_FALSE(status->fused);
   EXPECT_EQ(status->mode, MapStatus::LOCALISATION);
   expectPose(poseAt(again), T_map_next);
-  EXPECT_EQ(readFile(path_), before);
+  EXPECT_EQ(fileBytes(path_), before);
 }
 
 TEST_F(StoredMap, WhatCannotBeLoadedOrSavedIsSaidAndTheMapStays) {
@@ -116,7 +111,7 @@ TEST_F(StoredMap, WhatCannotBeLoadedOrSavedIsSaidAndTheMapStays) {
   expectRefused(load(""), "path is empty");
   expectRefused(save(""), "path is empty");
   expectRefused(save(folder_ / "no/such/folder/x.map"), "x.map");
-  std::string damaged = readFile(path_);
+  std::string damaged = fileBytes(path_);
   for (size_t i = 20000; i < damaged.size(); i += 1000) damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
   std::ofstream(folder_ / "damaged.map", std::ios::binary) << damaged;
   expectRefused(load(folder_ / "damaged.map"), "damaged.map");
@@ -165,15 +160,15 @@ TEST_F(StoredMap, AnEmptiedMapDoesNotTakeThePlaceOfTheKeptOne) {
   saveSomeFrames("");
   resetVolume();
   fuseAll({later(frames_.front())});
-  const std::string before = readFile(path_);
+  const std::string before = fileBytes(path_);
   unloadAll();
-  EXPECT_EQ(readFile(path_), before);
+  EXPECT_EQ(fileBytes(path_), before);
 }
 
 TEST_F(StoredMap, AReadOnlyMapIsNeverSavedAndWithoutOneNothingIsMapped) {
   saveSomeFrames(path_);
   unloadAll();
-  const std::string before = readFile(path_);
+  const std::string before = fileBytes(path_);
   graph_.handle().setParam("tsdf_fusion/map_file", path_);
   graph_.handle().setParam("tsdf_fusion/read_only", true);
   loadTracking();
@@ -184,7 +179,7 @@ TEST_F(StoredMap, AReadOnlyMapIsNeverSavedAndWithoutOneNothingIsMapped) {
   EXPECT_EQ(status->mode, MapStatus::LOCALISATION);
   EXPECT_FALSE(save("").success);
   unloadAll();
-  EXPECT_EQ(readFile(path_), before);
+  EXPECT_EQ(fileBytes(path_), before);
 
   graph_.handle().setParam("tsdf_fusion/map_file", folder_ / "none.map");
   loadTracking();
@@ -200,7 +195,7 @@ TEST_F(StoredMap, ADamagedFileIsLeftAloneAndMappingGoesOn) {
   loadTracking();
   fuseAll({frames_[0], frames_[1]});
   unloadAll();
-  EXPECT_EQ(readFile(path_), nonsense);
+  EXPECT_EQ(fileBytes(path_), nonsense);
 }
 
 // Without texture there are no keyframes, and the map's last pose is too far away to search from.

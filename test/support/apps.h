@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "support/file_bytes.h"
 #include "support/temporary_folder.h"
 
 namespace depth_fusion {
@@ -17,12 +18,6 @@ struct AppRun {
   std::string output;  // standard output
   std::string errors;  // standard error
 };
-
-inline std::string fileBytes(const std::string& path) {
-  std::ostringstream bytes;
-  bytes << std::ifstream(path, std::ios::binary).rdbuf();
-  return bytes.str();
-}
 
 inline std::string shellQuoted(const std::string& text) {
   std::string quoted = "'";

@@ -3,25 +3,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <iterator>
 #include <random>
 
 #include "depth_fusion/store/database.h"
 #include "support/expect_error.h"
+#include "support/file_bytes.h"
 #include "support/temporary_folder.h"
 
 namespace depth_fusion {
 namespace {
-
-std::string readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void writeFile(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
 
 // A file of a few levels of pages, with long values and short ones.
 std::string makeFile(const std::string& path) {
@@ -33,7 +23,7 @@ std::string makeFile(const std::string& path) {
     writer->put("key " + std::to_string(i), value);
   }
   writer->commit();
-  return readFile(path);
+  return fileBytes(path);
 }
 
 TEST(LmdbDatabase, FilesThatWereCutAreRefused) {
@@ -41,7 +31,7 @@ TEST(LmdbDatabase, FilesThatWereCutAreRefused) {
   const std::string whole = makeFile(folder / "whole.map");
   for (const double part : {0.001, 0.1, 0.5, 0.9, 0.999}) {
     const std::string path = folder / ("cut" + std::to_string(part) + ".map");
-    writeFile(path, whole.substr(0, static_cast<size_t>(part * whole.size())));
+    writeFileBytes(path, whole.substr(0, static_cast<size_t>(part * whole.size())));
     expectError([&] { openDatabase(path, DatabaseAccess::kRead); }, {path});
     expectError([&] { openDatabase(path, DatabaseAccess::kWrite); }, {path});
   }
@@ -60,7 +50,7 @@ TEST(LmdbDatabase, FlippedBitsEndNoProcess) {
     for (int flip = 0; flip < 3; ++flip) bytes[random() % range] ^= static_cast<char>(1 << random() % 8);
     const std::string path = folder / "flipped.map";
     unlink(path.c_str());
-    writeFile(path, bytes);
+    writeFileBytes(path, bytes);
     try {
       openDatabase(path, DatabaseAccess::kRead)->read()->forEach("", [](const auto&, const auto&) {});
     } catch (const Error&) {
@@ -75,9 +65,9 @@ TEST(LmdbDatabase, OtherFilesAreLeftAlone) {
   const std::string path = folder / "notes.txt";
   for (const size_t bytes : {5, 5000, 50000}) {
     const std::string text(bytes, 'x');
-    writeFile(path, text);
+    writeFileBytes(path, text);
     expectError([&] { openDatabase(path, DatabaseAccess::kWrite); }, {path});
-    EXPECT_EQ(readFile(path), text);
+    EXPECT_EQ(fileBytes(path), text);
   }
   expectError([&] { openDatabase(folder.path(), DatabaseAccess::kWrite); }, {"is a folder"});
   expectError([&] { openDatabase(folder / "no/such/x.map", DatabaseAccess::kWrite); },
@@ -92,7 +82,7 @@ TEST(LmdbDatabase, ReadingChangesNoByte) {
     const auto database = openDatabase(folder / "rows.map", DatabaseAccess::kRead);
     EXPECT_TRUE(database->read()->get("key 7"));
   }
-  EXPECT_EQ(readFile(folder / "rows.map"), before);
+  EXPECT_EQ(fileBytes(folder / "rows.map"), before);
 }
 
 }  // namespace

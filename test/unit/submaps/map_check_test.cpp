@@ -3,28 +3,17 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <iterator>
 #include <random>
 
 #include "submaps/row_keys.h"
 #include "support/expect_error.h"
+#include "support/file_bytes.h"
 #include "support/stored_maps.h"
 #include "support/temporary_folder.h"
 #include "support/test_compute.h"
 
 namespace depth_fusion {
 namespace {
-
-std::string readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void writeFile(const std::string& path, const std::string& bytes) {
-  unlink(path.c_str());
-  std::ofstream(path, std::ios::binary) << bytes;
-}
 
 MapParameters coloredMap() {
   MapParameters parameters = smallMap();
@@ -109,7 +98,7 @@ TEST_F(MapCheckTest, AMapThatHasOtherBlocksThanItSaysIsFound) {
 
 // Pages of the file are overwritten, or it is cut: LMDB itself may not even open it.
 TEST_F(MapCheckTest, WhatCanBeReadOfADamagedFileIsRescued) {
-  const std::string whole = readFile(path_), damaged = folder_ / "damaged.map";
+  const std::string whole = fileBytes(path_), damaged = folder_ / "damaged.map";
   constexpr size_t kPage = 4096;
   std::mt19937 random(2);
   int rescued = 0, lost_some = 0;
@@ -118,7 +107,8 @@ TEST_F(MapCheckTest, WhatCanBeReadOfADamagedFileIsRescued) {
     if (i % 5 == 0) bytes.resize(bytes.size() * (60 + random() % 40) / 100);
     const size_t page = 2 + random() % (bytes.size() / kPage - 2);
     for (size_t k = 0; k < kPage; ++k) bytes[page * kPage + k] = static_cast<char>(random());
-    writeFile(damaged, bytes);
+    unlink(damaged.c_str());
+    writeFileBytes(damaged, bytes);
     unlink(rescued_.c_str());
     try {
       const MapRescue saved = rescueMap(damaged, rescued_);
@@ -135,7 +125,7 @@ TEST_F(MapCheckTest, WhatCanBeReadOfADamagedFileIsRescued) {
 
 TEST_F(MapCheckTest, NothingIsOverwrittenByARescue) {
   expectError([&] { rescueMap(path_, path_); }, {"holds something already"});
-  writeFile(folder_ / "none.map", "");
+  writeFileBytes(folder_ / "none.map", "");
   expectError([&] { rescueMap(folder_ / "none.map", rescued_); }, {"nothing can be saved"});
 }
 
