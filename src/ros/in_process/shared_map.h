@@ -22,6 +22,9 @@ class FusedMap {
   BlockMap& map() { return map_; }
   // The mapper for frames of that camera, until the next call or reset(). Throws Error if the device cannot.
   Mapper& mapper(const CameraIntrinsics& camera);
+  // Where the camera was when the last frame was fused; the origin of a map without frames.
+  const Eigen::Vector3d& cameraPosition() const { return camera_W_; }
+  void noteCameraPosition(const Eigen::Vector3d& camera_W) { camera_W_ = camera_W; }
   // Empties the map; a new generation begins.
   void reset();
   // The parameters are for the frames to come; the map's stay. Throws Error for what cannot change.
@@ -32,6 +35,7 @@ class FusedMap {
   PipelineParameters parameters_;
   BlockMap map_;
   CameraIntrinsics camera_;
+  Eigen::Vector3d camera_W_ = Eigen::Vector3d::Zero();
   std::unique_ptr<Mapper> mapper_;
 };
 
