@@ -13,6 +13,7 @@
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
 #include "ros/output/map_reporter.h"
+#include "ros/output/view_frame.h"
 
 namespace depth_fusion {
 
@@ -29,6 +30,8 @@ class TsdfFusionNodelet : public StageNodelet {
   void applyParameters() override;
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void process(const TrackedFrame& frame);  // in the worker's thread
+  // Shows viewers the map as the frame's camera sees it.
+  void show(const TrackedFrame& frame, FusedMap& map, StageTimers& timers);
   bool serveReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool serveMode(SetMode::Request& request, SetMode::Response& response);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
@@ -41,6 +44,7 @@ class TsdfFusionNodelet : public StageNodelet {
   ros::ServiceServer reset_server_, mode_server_;
   std::unique_ptr<Worker<WaitingFrame>> worker_;
   std::unique_ptr<PosedFrameSubscriber> posed_subscriber_;  // of frames with poses from elsewhere
+  std::unique_ptr<ViewFrame> view_frame_;                   // the same; elsewhere nobody sends it
 };
 
 TsdfFusionNodelet::~TsdfFusionNodelet() {
@@ -81,6 +85,7 @@ void TsdfFusionNodelet::advertise() {
 
 void TsdfFusionNodelet::subscribe() {
   if (parameters_.isExternal()) {
+    view_frame_ = std::make_unique<ViewFrame>(parameters_.map_frame, parameters_.view_frame);
     // The worker's thread makes it, so that no frame is at work before it is there.
     worker_->between([this] {
       posed_subscriber_ = std::make_unique<PosedFrameSubscriber>(
@@ -113,8 +118,7 @@ void TsdfFusionNodelet::process(const TrackedFrame& frame) {
       outcome = mapper_->map(frame, map, parameters_.resetsOnClockJump(), timers);
       if (outcome.accepted && reporter_->hasViewers()) mapper_->render(frame, map, timers);
       reporter_->answer(header, outcome, *mapper_, map);
-      if (outcome.accepted)
-        reporter_->picture().publish(header, mapper_->renderer(map), parameters_.picture, timers);
+      if (outcome.accepted) show(frame, map, timers);
     } catch (const std::exception& error) {
       outcome.reason = error.what();
       NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << error.what());
@@ -124,6 +128,12 @@ void TsdfFusionNodelet::process(const TrackedFrame& frame) {
     reporter_->publishStatus(header, outcome, *mapper_, map, counter_.account());
   });
   recordTimings(timers);
+}
+
+void TsdfFusionNodelet::show(const TrackedFrame& frame, FusedMap& map, StageTimers& timers) {
+  const std_msgs::Header& header = frame.sensor->header;
+  if (view_frame_ != nullptr) view_frame_->follow(header.stamp, frame.tracking.T_W_D);
+  reporter_->picture().publish(header, mapper_->renderer(map), parameters_.picture, timers);
 }
 
 bool TsdfFusionNodelet::serveReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
