@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <vector>
 
 #include "apps/calibrate/report.h"
 #include "apps/calibrate/tracked_recording.h"
@@ -34,7 +35,8 @@ constexpr char kDescription[] =
 constexpr double kReadoutSigmas = 3.0;
 
 struct Options {
-  std::string input, output, trajectory_file, device;
+  std::vector<std::string> inputs;
+  std::string output, trajectory_file, device;
   RecordingArguments arguments;
   RecordingOptions recording;
   PipelineParameters parameters;
@@ -43,7 +45,8 @@ struct Options {
 };
 
 void addOptions(CLI::App& app, Options& options) {
-  app.add_option("--input", options.input, "recording: a folder or a .bag file, as of reconstruct")
+  app.add_option("--input", options.inputs,
+                 "recording: a folder, a .bag file, or several that are parts of one, as of reconstruct")
       ->required();
   app.add_option("--output", options.output, "folder for the results; made if missing")->required();
   addRecordingOptions(app, options.arguments, options.recording);
@@ -91,7 +94,7 @@ void correct(const DepthCalibration& depth, PreprocessingParameters& parameters)
 void calibrate(Options& options) {
   ComputeContext compute(options.device);
   const auto open = [&] {
-    return registered(openRecording(options.input, options.recording), compute,
+    return registered(openRecordings(options.inputs, options.recording), compute,
                       options.parameters.registration);
   };
   std::cout << "input: " << open()->description() << std::endl;
@@ -100,7 +103,7 @@ void calibrate(Options& options) {
   std::filesystem::create_directories(options.output);
 
   CalibrationReport report;
-  report.input = options.input;
+  report.input = namesOf(options.inputs);
   options.parameters.preprocessing.depth_offsets_per_m.clear();
   TrackedRecording tracked = track(compute, *open(), options.parameters, options.range);
   report.depth = calibrateDepth(compute, options.parameters, tracked.frames);
