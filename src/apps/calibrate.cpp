@@ -1,6 +1,7 @@
 // Measures the systematic errors of a depth sensor from a recording of an ordinary scene.
 #include <filesystem>
 #include <iostream>
+#include <vector>
 
 #include "apps/calibrate/report.h"
 #include "apps/command_line.h"
@@ -29,7 +30,8 @@ constexpr char kDescription[] =
     "  reconstruct --input desk.bag --output out --params calibrated/calibration.yaml\n";
 
 struct Options {
-  std::string input, output, trajectory_file, device;
+  std::vector<std::string> inputs;
+  std::string output, trajectory_file, device;
   RecordingArguments arguments;
   RecordingOptions recording;
   PipelineParameters parameters;
@@ -38,7 +40,8 @@ struct Options {
 };
 
 void addOptions(CLI::App& app, Options& options) {
-  app.add_option("--input", options.input, "recording: a folder or a .bag file, as of reconstruct")
+  app.add_option("--input", options.inputs,
+                 "recording: a folder, a .bag file, or several that are parts of one, as of reconstruct")
       ->required();
   app.add_option("--output", options.output, "folder for the results; made if missing")->required();
   addRecordingOptions(app, options.arguments, options.recording);
@@ -79,7 +82,7 @@ void findScale(const Options& options, const Trajectory& truth, CalibrationRepor
 void calibrate(const Options& options) {
   ComputeContext compute(options.device);
   const auto open = [&] {
-    return registered(openRecording(options.input, options.recording), compute,
+    return registered(openRecordings(options.inputs, options.recording), compute,
                       options.parameters.registration);
   };
   std::cout << "input: " << open()->description() << std::endl;
@@ -88,7 +91,7 @@ void calibrate(const Options& options) {
   std::filesystem::create_directories(options.output);
 
   CalibrationReport report;
-  report.input = options.input;
+  report.input = namesOf(options.inputs);
   report.calibration = calibrateFrom(compute, open, options.parameters, options.range,
                                      [](const std::string& text) { std::cout << text << std::endl; });
   // Times and scale are those of poses that the corrected depth gives.

@@ -32,7 +32,7 @@ struct Options {
 
 void addOptions(CLI::App& app, Options& options) {
   CountingOptions& counting = options.counting;
-  app.add_option("--input", counting.input, "a recording as of reconstruct, or a mesh (.ply)")->required();
+  app.add_option("--input", counting.inputs, "a recording as of reconstruct, or a mesh (.ply)")->required();
   app.add_option("--output", options.output, "folder for table, figure and map.yaml; made if missing")
       ->required();
   app.add_option("--box", options.request.box_m, "edge of the window in metres")->capture_default_str();

@@ -86,8 +86,17 @@ void printParameters(PipelineParameters& parameters) {
   }
 }
 
+// A file that is no good costs colour, not depth.
+void readColorCameraOrProblem(const std::string& file, RecordingOptions& recording) {
+  try {
+    if (!file.empty()) readColorCamera(file, recording);
+  } catch (const Error& error) {
+    recording.color_problem = error.what();
+  }
+}
+
 int run(const Arguments& arguments, RunOptions& options) {
-  if (!arguments.color_camera_file.empty()) readColorCamera(arguments.color_camera_file, options.recording);
+  readColorCameraOrProblem(arguments.color_camera_file, options.recording);
   if (options.device == "list") {
     listDevices();
     return 0;

@@ -1,5 +1,6 @@
 #include "recording/calibrated_recording.h"
 
+#include "depth_fusion/common/error.h"
 #include "depth_fusion/frames/y_down.h"
 
 namespace depth_fusion {
@@ -10,7 +11,11 @@ class CalibratedRecording : public Recording {
   CalibratedRecording(std::unique_ptr<Recording> recording, const RecordingOptions& options)
       : recording_(std::move(recording)), options_(options) {
     checkDistortion(options.distortion);
-    checkDistortion(options.color_distortion);
+    try {
+      checkDistortion(options.color_distortion);
+    } catch (const Error& error) {
+      options_.color_problem = error.what();
+    }
   }
 
   std::optional<RgbdFrame> next() override {
@@ -26,6 +31,10 @@ class CalibratedRecording : public Recording {
       frame->color_intrinsics = options_.color_intrinsics;
       frame->color_distortion = options_.color_distortion;
       frame->T_C_D = options_.T_C_D;
+    }
+    if (!options_.color_problem.empty()) {
+      frame->color_problem = options_.color_problem;
+      frame->color.release();
     }
     makeYDown(*frame);
     return frame;

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/geometry/camera_check.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "recording/calibrated_recording.h"
 #include "recording/camera_file.h"
@@ -18,6 +19,8 @@ void readCamera(const std::string& path, RecordingOptions& options) {
 
 void readColorCamera(const std::string& path, RecordingOptions& options) {
   const CameraFile file = readCameraFile(path);
+  const std::string problem = cameraProblem(file.camera);
+  check(problem.empty(), path + ": the intrinsics are not valid: " + problem + "; correct them");
   options.color_intrinsics = file.camera;
   options.color_distortion = file.distortion;
   options.T_C_D = file.T_C_D;

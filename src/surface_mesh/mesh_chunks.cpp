@@ -80,8 +80,22 @@ void MeshChunks::noteNext(size_t count) {
   }
 }
 
-void MeshChunks::noteAgain(const MeshChunkIndex& chunk) {
-  if (has_surface_.count(chunk) > 0) note(chunk);
+bool MeshChunks::noteAgain(const MeshChunkIndex& chunk) {
+  const bool has_surface = has_surface_.count(chunk) > 0;
+  if (has_surface) note(chunk);
+  return has_surface;
+}
+
+void MeshChunks::sortChanged(const Eigen::Vector3d& point_W) {
+  const MapParameters& map = map_.parameters();
+  const double edge_m = static_cast<double>(map.voxel_size_m) * map.block_size * blocks_per_axis_;
+  const auto distance = [&](const MeshChunkIndex& chunk) {
+    const Eigen::Vector3d centre(chunk[0] + 0.5, chunk[1] + 0.5, chunk[2] + 0.5);
+    return (edge_m * centre - point_W).squaredNorm();
+  };
+  std::stable_sort(changed_.begin(), changed_.end(), [&](const MeshChunkIndex& a, const MeshChunkIndex& b) {
+    return distance(a) < distance(b);
+  });
 }
 
 void MeshChunks::forgetAll() {

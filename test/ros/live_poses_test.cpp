@@ -154,6 +154,9 @@ TEST_F(LivePoses, FusesAtPosesFromTf) {
   graph_.handle().setParam("tsdf_fusion/map_frame", "map_external");
   graph_.handle().setParam("tsdf_fusion/tf_queue_size", 3);
   graph_.handle().setParam("tsdf_fusion/queue_size", 10);
+  graph_.handle().setParam("tsdf_fusion/view_frame", "external_view");
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
   tf2_ros::TransformBroadcaster localisation;
   ASSERT_TRUE(graph_.load("tsdf_fusion"));
   ASSERT_TRUE(camera_.awaitSubscribers());
@@ -172,6 +175,7 @@ TEST_F(LivePoses, FusesAtPosesFromTf) {
     ASSERT_NE(status, nullptr);
     EXPECT_TRUE(status->fused) << status->reason;
   }
+  EXPECT_TRUE(eventually([&] { return buffer.canTransform("map_external", "external_view", ros::Time(0)); }));
   // Frames without a pose are never fused at another one's: those that find no room in the queue are dropped
   // and counted. The others get theirs once tf knows the poses before and after them.
   for (size_t i = 6; i < 11; ++i) camera_.publish(frames[i]);

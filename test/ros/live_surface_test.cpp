@@ -2,6 +2,8 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "support/marker_screen.h"
 #include "support/nodelet_graph.h"
@@ -18,6 +20,54 @@ SignedDistance twoBalls() {
     return std::min(ball({-0.06, -0.06, -0.06}, 0.03)(p), ball({0.06, 0.06, 0.06}, 0.04)(p));
   };
 }
+
+constexpr size_t kMoreThanSocketsKeep = 8 << 20;
+
+// A viewer in a process of its own, which can be made to stall. It passes on whatever it gets, for its own
+// queue has no end.
+class OtherViewer {
+ public:
+  OtherViewer(const std::string& topic, const std::string& passed_on) : process_(fork()) {
+    if (process_ != 0) return;
+    constexpr char kScript[] = R"(
+import socket, sys, rospy
+class SmallSocket(socket.socket):
+    def __init__(self, *args, **kwargs):
+        super().__init__(*args, **kwargs)
+        self.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 16)
+socket.socket = SmallSocket
+publisher = None
+def pass_on(message):
+    global publisher
+    if publisher is None:
+        header = message._connection_header
+        raw = type('Raw', (rospy.AnyMsg,), {'_type': header['type'], '_md5sum': header['md5sum'],
+                                            '_full_text': header['message_definition']})
+        publisher = rospy.Publisher(sys.argv[2], raw, queue_size=10000)
+        while publisher.get_num_connections() == 0:
+            rospy.rostime.wallsleep(0.01)
+    copy = publisher.data_class()
+    copy._buff = message._buff
+    publisher.publish(copy)
+rospy.init_node('other_viewer', anonymous=True)
+rospy.Subscriber(sys.argv[1], rospy.AnyMsg, pass_on, queue_size=None, buff_size=1 << 24)
+rospy.spin()
+)";
+    execlp("python3", "python3", "-c", kScript, topic.c_str(), passed_on.c_str(), nullptr);
+    _exit(1);
+  }
+  ~OtherViewer() {
+    goOn();
+    kill(process_, SIGTERM);
+    waitpid(process_, nullptr, 0);
+  }
+
+  void stall() { kill(process_, SIGSTOP); }
+  void goOn() { kill(process_, SIGCONT); }
+
+ private:
+  pid_t process_;
+};
 
 class LiveSurfaceTest : public testing::Test {
  protected:
@@ -144,6 +194,35 @@ TEST_F(LiveSurfaceTest, lateViewersGetAllOfIt) {
   waitForUpdates();
   Screen late(graph_.handle(), "surface_mesh/markers");
   EXPECT_TRUE(late.shows(map_.mesh()));
+}
+
+TEST_F(LiveSurfaceTest, viewersThatStalledGetAllOfItInTheEnd) {
+  graph_.handle().setParam("surface_mesh/max_bandwidth_mb_s", 1000.0);
+  graph_.handle().setParam("surface_mesh/chunks_per_update", 4);
+  load();
+  Screen screen(graph_.handle(), "surface_mesh/markers", true), passed_on(graph_.handle(), "passed_on", true);
+  OtherViewer viewer(graph_.resolve("surface_mesh/markers"), graph_.resolve("passed_on"));
+  map_.show(twoBalls());
+  ASSERT_TRUE(passed_on.shows(map_.mesh()));
+  for (const SignedDistance& last : {ball({0.0, 0.0, 0.0}, 0.1), twoBalls()}) {
+    viewer.stall();
+    screen.takeTraffic();
+    size_t bytes = 0;
+    for (int i = 0; bytes < kMoreThanSocketsKeep; ++i) {
+      map_.show(ball({0.0, 0.0, 0.0}, 0.09 + 0.001 * (i % 10)));
+      ASSERT_TRUE(screen.shows(map_.mesh())) << "others do not wait for it";
+      bytes += screen.takeTraffic().bytes;
+    }
+    map_.show(last);
+    ASSERT_TRUE(screen.shows(map_.mesh()));
+    EXPECT_TRUE(eventually([&] {
+      screen.takeTraffic();
+      waitForUpdates();
+      return screen.takeTraffic().added == 0;
+    })) << "nothing is sent in vain";
+    viewer.goOn();
+    EXPECT_TRUE(passed_on.shows(map_.mesh()));
+  }
 }
 
 TEST_F(LiveSurfaceTest, resetClearsTheScreen) {

@@ -156,6 +156,12 @@ TEST_F(MeshExport, answersWhileDataFlows) {
 TEST(PathsOfMeshes, MayHaveTheHomeVariablesAndBlanks) {
   setenv("DEPTH_FUSION_FOLDER", "/data", 1);
   EXPECT_EQ(absolutePath("$DEPTH_FUSION_FOLDER/my room's mesh (1).ply"), "/data/my room's mesh (1).ply");
+  setenv("DEPTH_FUSION_FOLDER", "/my  data/~ *[a]'s", 1);
+  EXPECT_EQ(absolutePath("${DEPTH_FUSION_FOLDER}/a b.ply"), "/my  data/~ *[a]'s/a b.ply");
+  EXPECT_EQ(absolutePath("/$DEPTH_FUSION_FOLDER$DEPTH_FUSION_FOLDER"),
+            "/my  data/~ *[a]'s/my  data/~ *[a]'s");
+  EXPECT_EQ(absolutePath("/5$ \\ \"a\" `b` $(c).ply"), "/5$ \\ \"a\" `b` $(c).ply");
+  EXPECT_EQ(absolutePath("/~ mine.ply"), "/~ mine.ply");
   EXPECT_EQ(absolutePath("~/room.ply"), std::string(std::getenv("HOME")) + "/room.ply");
   EXPECT_THROW(absolutePath("$DEPTH_FUSION_NONE_SUCH/room.ply"), Error);
 }

@@ -125,6 +125,46 @@ TEST_F(OdometryOnTf, IsCorrectedWhileTheCameraIsSilentAndTheMapPaused) {
   expectMoreOnTf();
 }
 
+// Odometry has ROS time, the camera a clock of its own.
+class OdometryOfAnotherClock : public OdometryOnTf {
+ protected:
+  void sendNow(size_t of) {
+    odometry_.sendTransform(
+        makeTransform(makeHeader(ros::Time::now(), frame("odom")), frame("base"), T_odom_base(frames_[of])));
+  }
+  // Sends the frames, and expects that map -> odom goes on in ROS time, and that those words are said.
+  void expectToBeUsedAndSaid(const std::string& words) {
+    const Diagnostics diagnostics(graph_.handle());
+    loadTracking();
+    sendNow(0);
+    ASSERT_TRUE(
+        eventually([&] { return buffer_.canTransform(frame("odom"), frame("optical"), ros::Time(0)); }));
+    for (size_t i = 0; i < 8; ++i) {
+      sendNow(i);
+      expectFused(i);
+    }
+    EXPECT_TRUE(eventually([&] {
+      sendNow(7);
+      return diagnostics.await("icp_tracking", DiagnosticStatus::WARN, words, 0.2).level >= 0;
+    }));
+    expectMoreOnTf();
+    EXPECT_LT(std::abs(secondsBetween(sent().back(), ros::Time::now())), 60.0);
+    // The odometry that was there may have been that of the frame before.
+    EXPECT_LT(fromMessage(buffer_.lookupTransform(frame("map"), frame("odom"), ros::Time(0)).transform)
+                  .translation()
+                  .norm(),
+              0.1);
+  }
+};
+
+TEST_F(OdometryOfAnotherClock, ThatTheCameraIsBehind) { expectToBeUsedAndSaid("s behind ROS time"); }
+
+TEST_F(OdometryOfAnotherClock, ThatTheCameraIsAheadOf) {
+  const double later_s = ros::Time::now().toSec() + 600.0 - frames_.front().stamp_s;
+  for (RgbdFrame& frame : frames_) frame.stamp_s += later_s;
+  expectToBeUsedAndSaid("s ahead of ROS time");
+}
+
 TEST_F(OdometryOnTf, ThatNeverComesCostsNoFrameEither) {
   graph_.handle().setParam("icp_tracking/odom_frame", frame("none_such"));
   const Diagnostics diagnostics(graph_.handle());

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <future>
 
+#include "ros/input/published_topics.h"
 #include "support/nodelet_graph.h"
 
 namespace depth_fusion {
@@ -66,6 +67,28 @@ TEST_F(RgbdSubscriberTest, FramesComeOneAtATimeInOrderEachWithItsColour) {
     EXPECT_EQ(cv::norm(toColor(received[i]->color, "rgb"), frames_[i].color, cv::NORM_INF), 0.0) << i;
   }
   EXPECT_EQ(counter_.account().received, frames_.size() + 1);
+}
+
+// A driver that has just begun may have told the master of the compressed topic only.
+TEST_F(RgbdSubscriberTest, ACompressedTopicIsTakenIfTheRawOneDoesNotFollow) {
+  ImageTopic topic(graph_.handle(), "other/image", kAutoTransport, {"compressedDepth", "compressed"},
+                   {[](const ImageMessage&) {}, [](uint32_t) {}, [] {}});
+  const std::string raw = graph_.resolve("other/image"), compressed = raw + "/compressedDepth";
+  const auto look = [&](const std::vector<std::string>& names) {
+    ros::master::V_TopicInfo published;
+    for (const std::string& name : names) published.emplace_back(name, "");
+    topic.lookAround(PublishedTopics(published));
+    return topic.name();
+  };
+  EXPECT_EQ(look({compressed}), raw);
+  EXPECT_EQ(look({raw, compressed}), raw);
+  EXPECT_EQ(look({compressed}), raw);
+  EXPECT_EQ(look({raw + "/compressed"}), raw);
+  EXPECT_EQ(look({compressed}), raw);
+  EXPECT_EQ(look({compressed}), compressed);
+  EXPECT_EQ(look({}), compressed);
+  EXPECT_EQ(look({raw, compressed}), compressed) << "once more, as it may only be about to go";
+  EXPECT_EQ(look({raw, compressed}), raw) << "it has no publisher, the other one is there";
 }
 
 TEST_F(RgbdSubscriberTest, NobodyWaitsForAFrameAtWork) {

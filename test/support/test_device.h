@@ -49,8 +49,8 @@ class TestDevice {
     return line;
   }
 
-  // Records all the frames from the first on, by OpenNI2's own recorder. It works once a process, for its
-  // thread calls OpenNI2 and ends (see inOpenNi2Thread).
+  // Records all the frames from the first on, by OpenNI2's own recorder; colour begins later than depth. It
+  // works once a process, for its thread calls OpenNI2 and ends (see inOpenNi2Thread).
   void recordOni(const std::string& path, int frames) {
     inOpenNi2Thread([&] {
       const OpenNi2Runtime runtime;
@@ -71,8 +71,9 @@ class TestDevice {
     ASSERT_EQ(recorder.attach(color), openni::STATUS_OK);
     ASSERT_EQ(recorder.start(), openni::STATUS_OK);
     ASSERT_EQ(depth.start(), openni::STATUS_OK);
+    await(depth, 3);
     ASSERT_EQ(color.start(), openni::STATUS_OK);
-    await(depth, 5);  // while the camera stands: the file's streams begin at the same moment
+    await(depth, 5);  // while the camera stands
     control.at = frames - 1;
     apply();
     await(depth, frames + 5);

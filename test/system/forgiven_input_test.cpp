@@ -85,6 +85,15 @@ TEST_F(ForgivenInput, parts_of_a_split_bag_are_one_recording) {
       (place.getTime() < middle ? first : second).write(place.getTopic(), place.getTime(), place);
   }
   expectFused(reconstruct({folder_ / "0.bag", folder_ / "1.bag"}), kFrames);
+  // The other apps take them as reconstruct does.
+  const AppRun plan =
+      runApp("plan_resolution", {"--input", folder_ / "0.bag", folder_ / "1.bag", "--output", out()});
+  EXPECT_EQ(plan.status, 0) << plan.errors;
+  EXPECT_NE(plan.output.find("frame 6/6"), std::string::npos) << plan.output;
+  const AppRun calibration =
+      runApp("calibrate", {"--input", folder_ / "0.bag", folder_ / "1.bag", "--output", out()});
+  EXPECT_NE(calibration.output.find("6 depth images"), std::string::npos)
+      << calibration.output << calibration.errors;
 }
 
 TEST_F(ForgivenInput, colour_of_another_size_is_named_once_and_costs_no_frame) {
@@ -95,6 +104,25 @@ TEST_F(ForgivenInput, colour_of_another_size_is_named_once_and_costs_no_frame) {
   EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
   for (const char* word : {"320x240", "640x480", "intrinsics"})
     EXPECT_NE(run.errors.find(word), std::string::npos) << run.errors;
+}
+
+// Whatever is wrong with the camera that was given for it.
+TEST_F(ForgivenInput, a_colour_camera_that_is_none_is_named_once_and_costs_no_frame) {
+  const std::string file = folder_ / "color.yaml";
+  const std::map<std::string, std::string> faults = {
+      {"", "there is no such file"},
+      {"width: 640\nheight: 480\nfx: 525\n", "fy"},
+      {"width: 640\nheight: 480\nfx: 1\nfy: 1\ncx: 0\ncy: 0\n", "not valid"},
+      {"width: 320\nheight: 240\nfx: 262\nfy: 262\ncx: 160\ncy: 120\n", "320x240"}};
+  for (const auto& [content, words] : faults) {
+    if (!content.empty()) writeText(file, content);
+    const AppRun run = reconstruct({room(), "--color-camera", file});
+    expectFused(run, kFrames);
+    EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
+    if (!content.empty()) {
+      EXPECT_NE(run.errors.find(words), std::string::npos) << run.errors;
+    }
+  }
 }
 
 TEST_F(ForgivenInput, impossible_intrinsics_are_refused) {

@@ -32,6 +32,7 @@ struct RecordingOptions {
   std::optional<CameraIntrinsics> color_intrinsics;  // of a colour camera beside the depth camera
   LensDistortion color_distortion;                   // with color_intrinsics
   std::optional<Pose> T_C_D;                         // with color_intrinsics
+  std::string color_problem;                         // why colour is not to be used; empty: it is
   double max_pairing_gap_s = 0.02;                   // colour farther from its depth than this is left out
   std::string depth_topic;                           // bags only; empty: found by type and name
   std::string color_topic;                           // bags only; empty: found by type and name

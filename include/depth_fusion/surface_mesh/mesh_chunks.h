@@ -45,13 +45,15 @@ class MeshChunks {
   // may lack some.
   void noteNext(size_t count);
 
-  // The chunk is to be extracted again, if it has a surface.
-  void noteAgain(const MeshChunkIndex& chunk);
+  // The chunk is to be extracted again, if it has a surface; returns whether it has.
+  bool noteAgain(const MeshChunkIndex& chunk);
 
   // Chunks that takeChanged() has still to look at, as far as follow() knows.
   size_t changedCount() const { return changed_.size(); }
+  // Of these, the nearest to the point are to come first; those that change from now on come after them.
+  void sortChanged(const Eigen::Vector3d& point_W);
   // Follows the map, and extracts up to max_count of the changed chunks, those that changed first before the
-  // others. A chunk that has no surface and had none is not reported.
+  // others, as far as they were not sorted. A chunk that has no surface and had none is not reported.
   std::vector<MeshChunk> takeChanged(size_t max_count);
 
   size_t deviceBytes() const;

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <deque>
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
 #include "acquisition/field_of_view.h"
+#include "acquisition/openni2/one_at_a_time.h"
 #include "acquisition/openni2/openni2_thread.h"
 #include "acquisition/openni2/runtime.h"
 #include "acquisition/openni2/stream.h"
@@ -21,55 +21,10 @@ namespace depth_fusion {
 namespace {
 
 constexpr int kMaxWait_ms = 5000;
+constexpr double kLongAgo_s = 1e9;
+constexpr size_t kMostWaiting = 200;  // depth images, for colour that does not come
 constexpr std::chrono::milliseconds kCallbackBegins{
     20};  // from the player's look whether a stream runs to its memory
-
-// OpenNI2 keeps a stream's newest frame only; this holds the player back until the one before has been read.
-class OneAtATime : public BufferAllocator {
- public:
-  OneAtATime() : BufferAllocator(std::make_shared<FrameBuffers>()) {}
-
-  void* allocateFrameBuffer(int size) override {
-    std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait(lock, [this] { return !unread_ || closing_; });
-    unread_ = true;
-    ++in_use_;
-    return BufferAllocator::allocateFrameBuffer(size);
-  }
-
-  void freeFrameBuffer(void* data) override {
-    BufferAllocator::freeFrameBuffer(data);
-    change([this] { --in_use_; });
-  }
-
-  void noteRead() {
-    change([this] { unread_ = false; });
-  }
-  void close() {
-    change([this] { closing_ = true; });
-  }
-  // Waits until OpenNI2 has no frame of the stream any more, but not for ever.
-  void awaitUnused() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    changed_.wait_for(lock, std::chrono::milliseconds(kMaxWait_ms), [this] { return in_use_ == 0; });
-  }
-
- private:
-  template <class Change>
-  void change(const Change& make) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      make();
-    }
-    changed_.notify_all();
-  }
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool unread_ = false;
-  bool closing_ = false;
-  int in_use_ = 0;
-};
 
 cv::Mat toMat(DeviceImage& image, int type) {
   return {image.height, image.width, type, image.pixels.data(), image.step};
@@ -92,9 +47,9 @@ class OniRecording : public Recording {
     check(
         playback.setRepeatEnabled(false) == openni::STATUS_OK && playback.setSpeed(0.0f) == openni::STATUS_OK,
         path + ": OpenNI2 cannot play it frame by frame: " + openNi2Error());
-    depth_ = std::make_unique<Track>(device_, ImageStream::kDepth, path);
+    depth_ = std::make_unique<Track>(device_, ImageStream::kDepth, path, counter_);
     if (device_.hasSensor(openni::SENSOR_COLOR))
-      color_ = std::make_unique<Track>(device_, ImageStream::kColor, path);
+      color_ = std::make_unique<Track>(device_, ImageStream::kColor, path, counter_);
     const CameraIntrinsics own = (color_ ? *color_ : *depth_).camera();
     const cv::Size size = depth_->size();
     intrinsics_ = chooseIntrinsics(
@@ -112,9 +67,10 @@ class OniRecording : public Recording {
   }
 
   std::optional<RgbdFrame> next() override {
+    if (!color_lead_s_) alignColor();
     while (!firstDepthIsReady() && !ended_) readAhead();
     if (depth_->images.empty()) return std::nullopt;
-    DeviceImage depth = std::move(depth_->images.front());
+    DeviceImage depth = std::move(depth_->images.front().image);
     depth_->images.pop_front();
     check(depth.device_time_s > last_stamp_s_, path_ + ": a depth image of " +
                                                    std::to_string(depth.device_time_s) +
@@ -138,10 +94,14 @@ class OniRecording : public Recording {
   }
 
  private:
+  struct ReadImage {
+    DeviceImage image;
+    int place;  // in the file
+  };
   // A stream and its images that were read ahead.
   struct Track {
-    Track(openni::Device& device, ImageStream kind, const std::string& path)
-        : pace(new OneAtATime),
+    Track(openni::Device& device, ImageStream kind, const std::string& path, ImageCounter& counter)
+        : pace(new OneAtATime(counter)),
           stream(device, kind, std::nullopt, path, std::unique_ptr<BufferAllocator>(pace)),
           count(static_cast<size_t>(
               std::max(0, device.getPlaybackControl()->getNumberOfFrames(stream.video())))) {}
@@ -159,14 +119,14 @@ class OniRecording : public Recording {
       stream.video().stop();
       std::this_thread::sleep_for(kCallbackBegins);
       stream.video().stop();  // forgets a frame that has come meanwhile
-      pace->awaitUnused();
+      pace->awaitUnused(std::chrono::milliseconds(kMaxWait_ms));
     }
 
     OneAtATime* pace;  // the stream's
     OpenNi2Stream stream;
     size_t count;
     size_t read = 0;
-    std::deque<DeviceImage> images;
+    std::deque<ReadImage> images;
   };
 
   // Gives the camera of the same view in another size.
@@ -182,9 +142,9 @@ class OniRecording : public Recording {
 
   bool firstDepthIsReady() const {
     if (depth_->images.empty()) return false;
-    if (!color_ || color_->atEnd()) return true;
+    if (!color_ || color_->atEnd() || depth_->images.size() > kMostWaiting) return true;
     return !color_->images.empty() &&
-           color_->images.back().device_time_s >= depth_->images.front().device_time_s;
+           color_->images.back().image.device_time_s >= depth_->images.front().image.device_time_s;
   }
 
   void readAhead() {
@@ -198,27 +158,55 @@ class OniRecording : public Recording {
                   std::to_string(depth_->count) + " depth images");
     }
     Track& track = ready == 0 ? *depth_ : *color_;
-    track.images.push_back(track.stream.read());
+    DeviceImage image = track.stream.read();
+    if (&track == color_.get()) image.device_time_s += color_lead_s_.value_or(0.0);
     ++track.read;
-    track.pace->noteRead();
+    track.images.push_back({std::move(image), track.pace->noteRead()});
+  }
+
+  // In a file every stream counts its time from its own first image. Where they did not begin together, as
+  // when an image was lost or a stream was started later, the file's order tells: colour's first image is of
+  // a time between those of the depth images before and after it.
+  void alignColor() {
+    const auto is_known = [this] {
+      return !color_ || color_->atEnd() ||
+             (!color_->images.empty() && !depth_->images.empty() &&
+              depth_->images.back().place > color_->images.front().place);
+    };
+    while (!is_known() && !ended_ && depth_->images.size() <= kMostWaiting) readAhead();
+    if (!is_known() && !ended_) return;
+    color_lead_s_ = 0.0;
+    if (!color_ || color_->images.empty()) return;
+    double earliest_s = -kLongAgo_s, latest_s = kLongAgo_s;
+    for (auto depth = depth_->images.rbegin(); depth != depth_->images.rend(); ++depth) {
+      const bool is_before = depth->place < color_->images.front().place;
+      if (is_before) earliest_s = std::max(earliest_s, depth->image.device_time_s);
+      if (!is_before) latest_s = depth->image.device_time_s;
+    }
+    const double first_s = color_->images.front().image.device_time_s;
+    color_lead_s_ = std::clamp(0.0, earliest_s - first_s, std::max(earliest_s, latest_s) - first_s);
+    for (ReadImage& color : color_->images) color.image.device_time_s += *color_lead_s_;
   }
 
   // Empty if there is none.
   cv::Mat nearestColor(double stamp_s) {
-    std::deque<DeviceImage>& images = color_->images;
-    while (!images.empty() && images.front().device_time_s < stamp_s - max_pairing_gap_s_) images.pop_front();
-    const auto gap_s = [&](const DeviceImage& image) { return std::abs(image.device_time_s - stamp_s); };
+    std::deque<ReadImage>& images = color_->images;
+    while (!images.empty() && images.front().image.device_time_s < stamp_s - max_pairing_gap_s_)
+      images.pop_front();
+    const auto gap_s = [&](const ReadImage& read) { return std::abs(read.image.device_time_s - stamp_s); };
     const auto nearest = std::min_element(images.begin(), images.end(),
                                           [&](const auto& a, const auto& b) { return gap_s(a) < gap_s(b); });
     if (nearest == images.end() || gap_s(*nearest) > max_pairing_gap_s_) return {};
-    return colorOf(*nearest);
+    return colorOf(nearest->image);
   }
 
   const OpenNi2Runtime runtime_;
   const std::string path_;
   const double max_pairing_gap_s_;
   openni::Device device_;
+  ImageCounter counter_{0};
   std::unique_ptr<Track> depth_, color_;
+  std::optional<double> color_lead_s_;  // what is added to colour's times; none before it is known
   RecordingIntrinsics intrinsics_;
   std::optional<CameraIntrinsics> color_intrinsics_;
   double last_stamp_s_ = -1.0;

@@ -56,7 +56,8 @@ class SelectionPass {
   }
 
   void finish() {
-    check(preprocessor_ != nullptr, "no frame of " + options_.input + " has a pose; see --trajectory");
+    check(preprocessor_ != nullptr,
+          "no frame of " + namesOf(options_.inputs) + " has a pose; see --trajectory");
     for (size_t i = 0; i < selected_.size(); ++i) setBlocks(begin_[i], selected_[i]->kept());
   }
 
@@ -80,8 +81,8 @@ struct BlockCounting::Surface {
 };
 
 struct BlockCounting::Mesh : BlockCounting::Surface {
-  explicit Mesh(const CountingOptions& options) : mesh(readPly(options.input)) {
-    check(!mesh.triangles.empty(), options.input + " has no triangles");
+  explicit Mesh(const CountingOptions& options) : mesh(readPly(options.inputs.front())) {
+    check(!mesh.triangles.empty(), options.inputs.front() + " has no triangles");
     std::cout << "input: mesh of " << mesh.triangles.size() << " triangles" << std::endl;
   }
 
@@ -108,7 +109,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
   }
 
   std::unique_ptr<Recording> open() {
-    return registered(openRecording(options.input, options.recording), compute,
+    return registered(openRecordings(options.inputs, options.recording), compute,
                       options.parameters.registration);
   }
 
@@ -164,7 +165,8 @@ struct BlockCounting::Frames : BlockCounting::Surface {
     });
     check(!trajectory.empty() && trajectory.size() >= lost,
           "only " + std::to_string(trajectory.size()) + " of " + std::to_string(trajectory.size() + lost) +
-              " frames of " + options.input + " could be tracked; give its poses with --trajectory");
+              " frames of " + namesOf(options.inputs) +
+              " could be tracked; give its poses with --trajectory");
     if (lost > 0) std::cout << lost << " frames are lost and not counted" << std::endl;
   }
 
@@ -209,7 +211,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
 };
 
 BlockCounting::BlockCounting(const CountingOptions& options) {
-  if (endsWith(options.input, ".ply")) {
+  if (options.inputs.size() == 1 && endsWith(options.inputs.front(), ".ply")) {
     surface_ = std::make_unique<Mesh>(options);
   } else {
     surface_ = std::make_unique<Frames>(options);

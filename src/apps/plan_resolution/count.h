@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "depth_fusion/recording/recording.h"
@@ -12,8 +13,8 @@
 namespace depth_fusion {
 
 struct CountingOptions {
-  std::string input;            // a recording, or a PLY mesh
-  std::string trajectory_file;  // empty: the poses are tracked, as reconstruct does
+  std::vector<std::string> inputs;  // a recording, bags that are the parts of one, or a PLY mesh
+  std::string trajectory_file;      // empty: the poses are tracked, as reconstruct does
   std::string device;
   size_t max_frames = 0;  // 0 = all
   RecordingOptions recording;

@@ -79,8 +79,8 @@ class Run {
   bool failed_ = false;
 };
 
-Run::Run(const RunOptions& options) : options_(options), compute_(options.device) {
-  for (const std::string& path : options.inputs) input_ += (input_.empty() ? "" : " ") + path;
+Run::Run(const RunOptions& options)
+    : options_(options), input_(namesOf(options.inputs)), compute_(options.device) {
   std::cout << "device: " << compute_.selfTestReport() << std::endl;
   recording_ = registered(openRecordings(options.inputs, options.recording), compute_,
                           options.parameters.registration);
@@ -223,8 +223,7 @@ void Run::noteLoss(const std::string& reason) {
 }
 
 void Run::noteProblems(const RgbdFrame& frame) {
-  const std::string color_problem =
-      frame.color.empty() && frame.color_problem.empty() ? "" : colorProblem(frame);
+  const std::string color_problem = presentColorProblem(frame);
   if (!color_problem.empty() && !color_was_bad_) {
     color_was_bad_ = true;
     std::cerr << "reconstruct: " << color_problem

@@ -112,17 +112,10 @@ class SourceFinder {
     const bool given = !options_.color_topic.empty();
     const auto found = findColorTopic(topics_, sources_.depth_topic);
     if (!given && !found) return;
-    sources_.color_topic = given ? givenTopic(options_.color_topic) : found->name;
-    cv::Size size;
     try {
-      size = sampleColor(bags_, sources_.color_topic).size;
-    } catch (const Error& error) {
-      if (given) throw;
-      return leaveOutColor(error.what());
-    }
-    if (options_.intrinsics || options_.color_intrinsics) return;
-    try {
-      findColorCamera(size, depth_frame);
+      sources_.color_topic = given ? givenTopic(options_.color_topic) : found->name;
+      const cv::Size size = sampleColor(bags_, sources_.color_topic).size;
+      if (!options_.intrinsics && !options_.color_intrinsics) findColorCamera(size, depth_frame);
     } catch (const Error& error) {
       leaveOutColor(error.what());
     }

@@ -12,6 +12,12 @@ bool endsWith(const std::string& path, const std::string& ending) {
   return path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+std::string namesOf(const std::vector<std::string>& paths) {
+  std::string names;
+  for (const std::string& path : paths) names += (names.empty() ? "" : " ") + path;
+  return names;
+}
+
 std::unique_ptr<Recording> openRecording(const std::string& path, const RecordingOptions& options) {
   return openRecordings({path}, options);
 }

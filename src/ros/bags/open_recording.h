@@ -18,6 +18,8 @@ std::unique_ptr<Recording> openRecording(const std::string& path, const Recordin
 // One of these, or several bags that are the parts of one. Throws Error for several of anything else.
 std::unique_ptr<Recording> openRecordings(const std::vector<std::string>& paths,
                                           const RecordingOptions& options);
+// The paths in one line, for messages.
+std::string namesOf(const std::vector<std::string>& paths);
 
 // Reads a bag: depth as sensor_msgs/Image (16UC1, mono16, 32FC1) or CompressedImage (compressedDepth png),
 // colour as Image (whatever colorFromImage takes) or CompressedImage (jpeg, png), intrinsics from the

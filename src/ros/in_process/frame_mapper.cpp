@@ -48,6 +48,7 @@ MappingOutcome FrameMapper::fuse(const TrackedFrame& frame, FusedMap& map, Stage
                                                         parameters_.depth_sensor);
   const DepthFrame& depth =
       frame.depth ? *frame.depth : preprocessor_->process(rgbd, motion_.moveTo(rgbd.stamp_s, T_W_D), timers);
+  map.noteCameraPosition(T_W_D.translation());
   const MappingResult result = map.mapper(camera_).fuse(rgbd, depth, T_W_D, timers);
   if (!result.fusion.fused()) return {false, false, notFusedReason()};
   last_pose_ = {rgbd.stamp_s, T_W_D};

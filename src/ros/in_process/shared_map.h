@@ -23,6 +23,9 @@ class FusedMap {
   BlockMap& map() { return map_; }
   // The mapper for frames of that camera, until the next call or reset(). Throws Error if the device cannot.
   Mapper& mapper(const CameraIntrinsics& camera);
+  // Where the camera was when the last frame was fused; the origin of a map without frames.
+  const Eigen::Vector3d& cameraPosition() const { return camera_W_; }
+  void noteCameraPosition(const Eigen::Vector3d& camera_W) { camera_W_ = camera_W; }
   // Empties the map; a new generation begins.
   void reset();
   // Takes in a stored map in place of what there is. Throws Error, and changes nothing, if it was filtered by
@@ -36,6 +39,7 @@ class FusedMap {
   PipelineParameters parameters_;
   BlockMap map_;
   CameraIntrinsics camera_;
+  Eigen::Vector3d camera_W_ = Eigen::Vector3d::Zero();
   std::unique_ptr<Mapper> mapper_;
 };
 

@@ -2,7 +2,9 @@
 
 #include <ros/message_event.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "ros/input/published_topics.h"
 
@@ -36,14 +38,15 @@ ImageTopic::ImageTopic(const ros::NodeHandle& handle, const std::string& image, 
 }
 
 void ImageTopic::lookAround(const PublishedTopics& published) {
-  if (transports_.size() == 1 || isPublished()) return;
-  for (const std::string& transport : transports_) {
-    if (!published.contains(nameWith(transport))) continue;
-    const bool is_subscribed = nameWith(transport) == name();
-    if (is_subscribed) return;
-    ROS_INFO("%s is not published, %s is, and is taken", name().c_str(), nameWith(transport).c_str());
-    return subscribe(transport);
-  }
+  if (transports_.size() == 1) return;
+  const auto found = std::find_if(transports_.begin(), transports_.end(), [&](const std::string& transport) {
+    return published.contains(nameWith(transport));
+  });
+  const bool is_other = !isPublished() && found != transports_.end() && nameWith(*found) != name();
+  const std::string before = std::exchange(found_, is_other ? *found : "");
+  if (!is_other || before != *found) return;
+  ROS_INFO("%s is not published, %s is, and is taken", name().c_str(), nameWith(*found).c_str());
+  subscribe(*found);
 }
 
 void ImageTopic::subscribe(const std::string& transport) {

@@ -37,7 +37,8 @@ class ImageTopic {
   ImageTopic& operator=(const ImageTopic&) = delete;
 
   // Subscribes the first of the topic's transports that is published, if the transport is "auto" and nobody
-  // publishes the topic that is subscribed now.
+  // publishes the topic that is subscribed now. It takes two looks in a row that find the same: a driver that
+  // has just begun may still be about to publish the first one.
   void lookAround(const PublishedTopics& published);
 
   // The name of the topic subscribed now.
@@ -61,6 +62,7 @@ class ImageTopic {
   mutable std::mutex mutex_;  // of the rest
   PublisherWatch publishers_;
   std::string transport_;
+  std::string found_;  // the transport that the last look would have
   ros::Subscriber subscriber_;
 };
 

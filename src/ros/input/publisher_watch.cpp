@@ -1,11 +1,15 @@
 #include "ros/input/publisher_watch.h"
 
+#include <algorithm>
+
 namespace depth_fusion {
 namespace {
 
 constexpr double kSilence_s = 1.0;
 // Larger steps are none of messages that were dropped, but of a publisher that numbers by rules of its own.
 constexpr uint32_t kMaxMissed = 1000;
+// Of so many steps most decide what is usual.
+constexpr int kManySteps = 10;
 
 }  // namespace
 
@@ -19,10 +23,12 @@ PublisherWatch::Verdict PublisherWatch::judge(const std::string& publisher, uint
   }
   if (publishers < 2) other_.clear();
   const uint32_t step = is_same && seq > seq_ ? seq - seq_ : 1;
+  const bool is_loss = single_steps_ > 1 && step - 1 < kMaxMissed;
+  if (is_same) single_steps_ = std::clamp(single_steps_ + (step == 1 ? 1 : -1), 0, kManySteps);
   publisher_ = publisher;
   seq_ = seq;
   last_ = now;
-  return {true, step - 1 < kMaxMissed ? step - 1 : 0};
+  return {true, is_loss ? step - 1 : 0};
 }
 
 }  // namespace depth_fusion

@@ -18,7 +18,9 @@ class PublisherWatch {
   };
 
   // Judges the message that arrives next, by its publisher's node, its header's seq, which roscpp counts up
-  // at every message that leaves a process, and the number of publishers that the topic has.
+  // at every message that leaves a process, and the number of publishers that the topic has. Steps of seq are
+  // losses where most steps are single ones; else the topic is one that topic_tools thins out (throttle,
+  // drop), which leave seq as it was.
   Verdict judge(const std::string& publisher, uint32_t seq, uint32_t publishers, const ros::WallTime& now);
 
   const std::string& publisher() const { return publisher_; }
@@ -28,6 +30,7 @@ class PublisherWatch {
  private:
   std::string publisher_, other_;
   uint32_t seq_ = 0;
+  int single_steps_ = 0;  // of late, more than others
   ros::WallTime last_;
 };
 

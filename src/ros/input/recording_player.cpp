@@ -112,8 +112,8 @@ void RecordingPlayer::playOnce() {
       continue;
     }
     if (!frame) return;
-    frame = registration_.process(*frame, ontoColor());
     host_.counter.receive();
+    if (!prepare(*frame)) continue;
     if (!parameters_.lossless) awaitTime(frame->stamp_s);
     ros::Time stamp;
     {
@@ -123,6 +123,24 @@ void RecordingPlayer::playOnce() {
     host_.counter.process();
     host_.record_timings(timers);
     if (parameters_.lossless) awaitMap(stamp);
+  }
+}
+
+bool RecordingPlayer::prepare(RgbdFrame& frame) {
+  const std::string of_color = presentColorProblem(frame), &of_stamp = frame.stamp_problem;
+  if (said_.isNew(of_color))
+    setState(DiagnosticStatus::WARN,
+             of_color + "; only the frame's depth is played, and so with others like it");
+  if (said_.isNew(of_stamp.empty() ? "" : "stamps"))
+    setState(DiagnosticStatus::WARN, of_stamp + ", and so with others like it");
+  if (!of_color.empty()) frame.color.release();
+  try {
+    frame = registration_.process(frame, ontoColor());
+    return true;
+  } catch (const std::exception& error) {
+    host_.counter.drop("not registered");
+    setState(DiagnosticStatus::ERROR, error.what());
+    return false;
   }
 }
 

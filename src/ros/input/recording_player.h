@@ -8,6 +8,7 @@
 #include "ros/input/lazy_registration.h"
 #include "ros/input/playback_summary.h"
 #include "ros/input/player_parameters.h"
+#include "ros/input/said_once.h"
 
 namespace depth_fusion {
 
@@ -23,6 +24,8 @@ class RecordingPlayer : public FrameSource {
   std::unique_ptr<Recording> open() const;
   void play();
   void playOnce();
+  // Says what is wrong with the frame, and makes it one camera's. False if that cannot be done.
+  bool prepare(RgbdFrame& frame);
   // Waits until everybody has connected who will.
   void awaitListeners();
   void awaitTime(double stamp_s);
@@ -43,6 +46,7 @@ class RecordingPlayer : public FrameSource {
   ros::Subscriber map_subscriber_, tracker_subscriber_;
 
   PlaybackSummary summary_;
+  SaidOnce said_;                  // of frames
   std::optional<ros::Time> done_;  // the frame of which was heard last that it is in the map, or lost
   double first_stamp_s_ = -1.0;
   ros::WallTime first_sent_;

@@ -29,7 +29,7 @@ void addColor(const RgbdMessages& messages, SensorFrame& frame) {
 }
 
 void leaveUnusableColorOut(RgbdFrame& frame) {
-  if (!frame.color.empty()) frame.color_problem = colorProblem(frame);
+  frame.color_problem = presentColorProblem(frame);
   if (!frame.color_problem.empty()) frame.color.release();
 }
 

@@ -1,7 +1,6 @@
 #include "ros/input/rgbd_subscriber.h"
 
 #include "depth_fusion/common/error.h"
-#include "ros/input/missing_topics.h"
 
 namespace depth_fusion {
 namespace {
@@ -9,8 +8,6 @@ namespace {
 constexpr double kMaxInfoWait_s = 0.5;  // for camera_info and tf
 constexpr double kReleasePeriod_s = 0.02;
 constexpr double kLookPeriod_s = 1.0;
-constexpr double kSilence_s = 2.0;    // without a depth image, before that is a problem
-constexpr double kWarnAfter_s = 3.0;  // and before the console says so
 
 }  // namespace
 
@@ -19,6 +16,7 @@ RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& par
     : counter_(counter),
       callback_(std::move(callback)),
       decoder_(handle, device),
+      watch_(depth_, color_, decoder_.cameras()),
       registration_parameters_(parameters.registration),
       pairing_(parameters.pairing),
       color_(handle, "rgb/image", parameters.color_transport, {"compressed"},
@@ -33,7 +31,7 @@ RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& par
       release_timer_(callbacks_.createWallTimer(handle, ros::WallDuration(kReleasePeriod_s),
                                                 [this](const ros::WallTimerEvent&) { deliverComplete(); })),
       look_timer_(callbacks_.createWallTimer(handle, ros::WallDuration(kLookPeriod_s),
-                                             [this](const ros::WallTimerEvent&) { lookAround(); })) {}
+                                             [this](const ros::WallTimerEvent&) { watch_.look(); })) {}
 
 void RgbdSubscriber::setParameters(const RgbdParameters& parameters) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -49,11 +47,7 @@ void RgbdSubscriber::onDepth(const ImageMessage& image) {
   messages->received = ros::WallTime::now();
   messages->depth_topic = depth_.name();
   messages->color_topic = color_.name();
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    last_depth_ = messages->received;
-    has_come_ = true;
-  }
+  watch_.noteDepth();
   if (!takeStamp(*messages)) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -134,7 +128,7 @@ SensorFramePtr RgbdSubscriber::decode(const RgbdMessages& messages) {
   try {
     const SensorFramePtr frame = decoder_.decode(messages, registration);
     const std::string& color_problem = frame->rgbd.color_problem;
-    if (!color_problem.empty()) ROS_WARN_THROTTLE(5.0, "%s; only depth is used", color_problem.c_str());
+    if (said_of_color_.isNew(color_problem)) ROS_WARN_STREAM(color_problem << "; only depth is used");
     const std::lock_guard<std::mutex> lock(mutex_);
     problem_.clear();
     color_problem_ = color_problem;
@@ -154,55 +148,10 @@ void RgbdSubscriber::drop(const std::string& reason, const std::string& detail) 
   ROS_WARN_THROTTLE(5.0, "a depth image is left out: %s", detail.c_str());
 }
 
-double RgbdSubscriber::silent_s() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return (ros::WallTime::now() - last_depth_).toSec();
-}
-
-void RgbdSubscriber::lookAround() {
-  const std::string publishers = publishersProblem();
-  if (!publishers.empty()) warn(publishers);
-  if (silent_s() < kLookPeriod_s && color_.isPublished() && decoder_.cameras().hasDepth()) return;
-  const PublishedTopics published;
-  depth_.lookAround(published);
-  color_.lookAround(published);
-  const std::string text = missing(published);
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    missing_ = text;
-  }
-  if (silent_s() > kWarnAfter_s) warn(text);
-}
-
-std::string RgbdSubscriber::missing(const PublishedTopics& published) const {
-  constexpr char kImage[] = "sensor_msgs/Image", kCompressed[] = "sensor_msgs/CompressedImage";
-  return missingText({{depth_.name(), "depth_topic", {kImage, kCompressed}},
-                      {decoder_.cameras().depthInfoTopic(), "depth_info_topic", {"sensor_msgs/CameraInfo"}}},
-                     published);
-}
-
-std::string RgbdSubscriber::publishersProblem() const {
-  const std::string of_depth = depth_.problem();
-  return of_depth.empty() ? color_.problem() : of_depth;
-}
-
-void RgbdSubscriber::warn(const std::string& text) {
-  if (text.empty() || text == warned_) return;
-  warned_ = text;
-  ROS_WARN_STREAM(text);
-}
-
 std::string RgbdSubscriber::problem() const {
-  const std::string publishers = publishersProblem();
-  const std::string topic = depth_.name();
-  const double silence_s = silent_s();
+  const std::string silence = watch_.silence(), publishers = watch_.publishers();
+  if (!silence.empty()) return silence;
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::string names = missing_.empty() ? "" : "; " + missing_;
-  if (!has_come_)
-    return "no depth image yet on " + topic + "; is the sensor running, and is that its topic?" + names;
-  if (silence_s > kSilence_s)
-    return "no depth image on " + topic + " for " + std::to_string(static_cast<int>(silence_s)) +
-           " s; is the sensor running?" + names;
   if (!problem_.empty()) return problem_;
   return publishers.empty() ? color_problem_ : publishers;
 }

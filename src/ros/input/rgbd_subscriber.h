@@ -14,6 +14,7 @@
 #include "ros/input/rgbd_decoder.h"
 #include "ros/input/rgbd_pairing.h"
 #include "ros/input/stamp_policy.h"
+#include "ros/input/topic_watch.h"
 
 namespace depth_fusion {
 
@@ -54,30 +55,20 @@ class RgbdSubscriber {
   void deliverComplete();
   RgbdMessagesPtr takeComplete();
   void drop(const std::string& reason, const std::string& detail);
-  // Looks for topics that are published under other names or transports, and names them to who waits for
-  // images.
-  void lookAround();
-  double silent_s() const;
-  std::string missing(const PublishedTopics& published) const;
-  std::string publishersProblem() const;
-  // Once for every text, until there is another one.
-  void warn(const std::string& text);
 
   FrameCounter& counter_;
   const Callback callback_;
-  RgbdDecoder decoder_;  // only decode() uses it, but for the cameras
-  StampPolicy stamps_;   // only onDepth() uses it
-  std::string warned_;   // only lookAround() uses it
+  RgbdDecoder decoder_;     // only decode() uses it, but for the cameras
+  SaidOnce said_of_color_;  // only decode() uses it
+  StampPolicy stamps_;      // only onDepth() uses it
+  TopicWatch watch_;
 
   mutable std::mutex mutex_;  // guards the rest up to the topics, and is never held during the callback
   bool delivering_ = false;   // some thread is
   bool awaits_cameras_ = true;
-  bool has_come_ = false;  // a depth image
   RegistrationParameters registration_parameters_;
   RgbdPairing pairing_;
-  ros::WallTime last_depth_ = ros::WallTime::now();  // when it arrived; at first, when waiting began
-  std::string problem_, color_problem_;              // of images that came
-  std::string missing_;                              // of those that do not come
+  std::string problem_, color_problem_;  // of images that came
 
   // These are last: they end, and with them every callback, before anything that the callbacks use.
   ImageTopic color_, depth_;

@@ -1,12 +1,10 @@
 // ICP tracking: the pose of every frame against the model view, over tf2 and as messages.
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
-
 #include <pluginlib/class_list_macros.hpp>
 
-#include "ros/conversions/messages.h"
 #include "ros/in_process/deferred.h"
 #include "ros/in_process/live_tracker.h"
 #include "ros/in_process/worker.h"
+#include "ros/input/initial_pose.h"
 #include "ros/input/rgbd_subscriber.h"
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/output/pose_publisher.h"
@@ -27,7 +25,6 @@ class IcpTrackingNodelet : public StageNodelet {
   void applyParameters() override;
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void subscribe();
-  void takeInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message);
   TexturedFramePtr decode(const RgbdMessages& messages);
   void process(const WaitingFrame& waiting);
   void publish(const SensorFrame& frame, const LiveResult& result, StageTimers& timers);
@@ -38,11 +35,12 @@ class IcpTrackingNodelet : public StageNodelet {
   PoseParameters pose_;
   int queue_size_ = 1;
 
-  ros::Subscriber frame_subscriber_, view_subscriber_, initial_pose_subscriber_;
+  ros::Subscriber frame_subscriber_, view_subscriber_;
   std::unique_ptr<PosePublisher> pose_publisher_;
   std::unique_ptr<TrackerReport> report_;
   std::unique_ptr<LiveTracker> tracker_;
   std::unique_ptr<Worker<WaitingFrame>> worker_;
+  std::unique_ptr<InitialPose> initial_pose_;
   std::unique_ptr<RgbdSubscriber> sensor_subscriber_;  // without texture odometry
 };
 
@@ -50,7 +48,7 @@ IcpTrackingNodelet::~IcpTrackingNodelet() {
   stopServing();
   frame_subscriber_.shutdown();
   view_subscriber_.shutdown();
-  initial_pose_subscriber_.shutdown();
+  initial_pose_.reset();
   if (tracker_ != nullptr) tracker_->fusion().stop();
   if (worker_ != nullptr) worker_->stop();
   sensor_subscriber_.reset();
@@ -81,8 +79,8 @@ void IcpTrackingNodelet::subscribe() {
   view_subscriber_ = subscribeInProcess<MapView>(
       "tsdf_fusion/model_view", "tsdf_fusion", Carries::kOther,
       [this](const MapViewMessage::ConstPtr& view) { tracker_->fusion().receive(view); });
-  initial_pose_subscriber_ = getMTNodeHandle().subscribe<geometry_msgs::PoseWithCovarianceStamped>(
-      "/initialpose", 1, [this](const auto& message) { takeInitialPose(*message); });
+  initial_pose_ = std::make_unique<InitialPose>(
+      getMTNodeHandle(), pose_.map_frame, [this](const Pose& T_map_base) { tracker_->expectAt(T_map_base); });
   if (parameters_.use_texture) {
     frame_subscriber_ = subscribeInProcess<TexturedSensorFrame>(
         "texture_odometry/frame", "texture_odometry", Carries::kFrames,
@@ -96,19 +94,6 @@ void IcpTrackingNodelet::subscribe() {
           worker_->push(WaitingFrame([this, messages] { return decode(*messages); }));
         });
   });
-}
-
-void IcpTrackingNodelet::takeInitialPose(const geometry_msgs::PoseWithCovarianceStamped& message) {
-  if (message.header.frame_id != pose_.map_frame) {
-    NODELET_ERROR_STREAM("/initialpose is in the frame '" << message.header.frame_id << "'; give it in "
-                                                          << pose_.map_frame);
-    return;
-  }
-  try {
-    tracker_->expectAt(fromMessage(message.pose.pose));
-  } catch (const Error& error) {
-    NODELET_ERROR_STREAM("/initialpose: " << error.what());
-  }
 }
 
 TexturedFramePtr IcpTrackingNodelet::decode(const RgbdMessages& messages) {

@@ -1,8 +1,5 @@
 // TSDF fusion: frames with poses into the map, model views out of it; services to reset it, to stop and go
 // on, to save and load it.
-#include <depth_fusion/SetMode.h>
-#include <std_srvs/Trigger.h>
-
 #include <pluginlib/class_list_macros.hpp>
 
 #include "depth_fusion/pipeline/warm_up.h"
@@ -12,8 +9,10 @@
 #include "ros/input/posed_frame_subscriber.h"
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
+#include "ros/output/map_commands.h"
 #include "ros/output/map_keeper.h"
 #include "ros/output/map_reporter.h"
+#include "ros/output/view_frame.h"
 
 namespace depth_fusion {
 
@@ -31,8 +30,8 @@ class TsdfFusionNodelet : public StageNodelet {
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void greet();                             // tells a tracker that has come of the map
   void process(const TrackedFrame& frame);  // in the worker's thread
-  bool serveReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool serveMode(SetMode::Request& request, SetMode::Response& response);
+  // Shows viewers the map as the frame's camera sees it.
+  void show(const TrackedFrame& frame, FusedMap& map, StageTimers& timers);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
   TsdfFusionNodeletParameters parameters_;
@@ -40,9 +39,10 @@ class TsdfFusionNodelet : public StageNodelet {
   std::unique_ptr<FrameMapper> mapper_;  // for whoever has the map locked, as is the reporter
   std::unique_ptr<MapReporter> reporter_;
   ros::Subscriber frame_subscriber_;
-  ros::ServiceServer reset_server_, mode_server_;
   std::unique_ptr<Worker<WaitingFrame>> worker_;
   std::unique_ptr<PosedFrameSubscriber> posed_subscriber_;  // of frames with poses from elsewhere
+  std::unique_ptr<ViewFrame> view_frame_;                   // the same; elsewhere nobody sends it
+  std::unique_ptr<MapCommands> commands_;
   std::unique_ptr<MapKeeper> keeper_;
 };
 
@@ -77,21 +77,18 @@ void TsdfFusionNodelet::advertise() {
         if (const TrackedFramePtr frame = waiting.take()) process(*frame);
       },
       [this](const WaitingFrame&) { counter_.drop(kTooSlow); });
-  keeper_ = std::make_unique<MapKeeper>(map_, *mapper_, parameters_.keeper, handle,
-                                        [this](const std::string& news, FusedMap& map) {
-                                          reporter_->announce(news, *mapper_, map, counter_.account());
-                                        });
+  const AnnounceMap announce = [this](const std::string& news, FusedMap& map) {
+    reporter_->announce(news, *mapper_, map, counter_.account());
+  };
+  keeper_ = std::make_unique<MapKeeper>(map_, *mapper_, parameters_.keeper, handle, announce);
   keeper_->loadAtStart();
   subscribe();
-  reset_server_ = callbacks_.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
-      handle, "reset_volume",
-      [this](auto& request, auto& response) { return serveReset(request, response); });
-  mode_server_ = callbacks_.advertiseService<SetMode::Request, SetMode::Response>(
-      handle, "set_mode", [this](auto& request, auto& response) { return serveMode(request, response); });
+  commands_ = std::make_unique<MapCommands>(map_, *mapper_, handle, callbacks_, announce);
 }
 
 void TsdfFusionNodelet::subscribe() {
   if (parameters_.isExternal()) {
+    view_frame_ = std::make_unique<ViewFrame>(parameters_.map_frame, parameters_.view_frame);
     // The worker's thread makes it, so that no frame is at work before it is there.
     worker_->between([this] {
       posed_subscriber_ = std::make_unique<PosedFrameSubscriber>(
@@ -130,8 +127,7 @@ void TsdfFusionNodelet::process(const TrackedFrame& frame) {
       outcome = mapper_->map(frame, map, parameters_.resetsOnClockJump(), timers);
       if (outcome.accepted && reporter_->hasViewers()) mapper_->render(frame, map, timers);
       reporter_->answer(header, outcome, *mapper_, map);
-      if (outcome.accepted)
-        reporter_->picture().publish(header, mapper_->renderer(map), parameters_.picture, timers);
+      if (outcome.accepted) show(frame, map, timers);
     } catch (const std::exception& error) {
       outcome.reason = error.what();
       NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << error.what());
@@ -143,30 +139,10 @@ void TsdfFusionNodelet::process(const TrackedFrame& frame) {
   recordTimings(timers);
 }
 
-bool TsdfFusionNodelet::serveReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  const MapReset reset{ros::WallTime::now(), ros::Time::now()};
-  map_->locked([&](FusedMap& map) {
-    mapper_->reset(map, reset);
-    reporter_->announce("the map was emptied by reset_volume", *mapper_, map, counter_.account());
-  });
-  response.success = true;
-  response.message = "the map is empty; it begins anew with the next frame";
-  return true;
-}
-
-bool TsdfFusionNodelet::serveMode(SetMode::Request& request, SetMode::Response& response) {
-  constexpr const char* kModes[] = {"mapping: frames are tracked, and fused into the map",
-                                    "localisation only: frames are tracked, and the map stays as it is",
-                                    "paused: frames are neither tracked nor fused"};
-  response.success = request.mode < std::size(kModes);
-  response.message = "mode must be 0 (mapping), 1 (localisation) or 2 (paused)";
-  if (!response.success) return true;
-  response.message = kModes[request.mode];
-  map_->locked([&](FusedMap& map) {
-    mapper_->admission().setMode(static_cast<MapMode>(request.mode));
-    reporter_->announce(response.message, *mapper_, map, counter_.account());
-  });
-  return true;
+void TsdfFusionNodelet::show(const TrackedFrame& frame, FusedMap& map, StageTimers& timers) {
+  const std_msgs::Header& header = frame.sensor->header;
+  if (view_frame_ != nullptr) view_frame_->follow(header.stamp, frame.tracking.T_W_D);
+  reporter_->picture().publish(header, mapper_->renderer(map), parameters_.picture, timers);
 }
 
 void TsdfFusionNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -12,6 +12,9 @@ ParameterTable TsdfFusionNodeletParameters::table() {
           choice("tracking", &tracking, {"internal", "external"},
                  "internal: frames with poses from icp_tracking; external: frames from the topics, poses "
                  "from tf at their stamps")),
+      atStartOnly(text("view_frame", &view_frame,
+                       "external: a frame on tf that follows the camera and stays level, for the view of "
+                       "rviz; empty: none")),
       queueSizeRow(queue_size),
       atStartOnly(number("tf_queue_size", &tf_queue_size, 1, 10000,
                          "external: frames that wait for their pose at most")),

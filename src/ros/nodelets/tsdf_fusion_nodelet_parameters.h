@@ -18,6 +18,7 @@ struct TsdfFusionNodeletParameters {
   std::string device;
   std::string map_frame = "map";
   std::string tracking = "internal";
+  std::string view_frame;  // empty: none
   int queue_size = 2;
   int tf_queue_size = 30;
   std::string on_clock_jump = "reset";

@@ -37,8 +37,8 @@ void CameraTree::leaveOut(const std::string& child) {
 }
 
 void CameraTree::receive(const tf2_msgs::TFMessage& message, bool is_static) {
-  const ros::Time now = ros::Time::now();
   const std::lock_guard<std::mutex> lock(mutex_);
+  const ros::Time now = ros::Time::now();  // with the lock held, so that it goes back only if the clock does
   if (now < std::exchange(last_received_, now)) buffer_.clear();  // a simulated clock went back
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     if (transform.header.frame_id == map_frame_ && transform.child_frame_id == left_out_) continue;

@@ -14,6 +14,7 @@ constexpr double kCoarsest = 0.1;         // share of a chunk's triangles
 
 }  // namespace
 
+using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 using visualization_msgs::MarkerArrayPtr;
 
@@ -31,23 +32,37 @@ void LiveSurface::showAll() {
   map->locked([this](FusedMap&) { chunks_->noteAll(); });
 }
 
-MarkerArrayPtr LiveSurface::update(bool with_markers, bool with_points, ByteBudget& budget) {
+MarkerArrayPtr LiveSurface::update(const SurfaceViewers& viewers, ByteBudget& budget) {
   const auto markers = boost::make_shared<MarkerArray>();
   const std::shared_ptr<SharedMap> map = map_.lock();
   if (map == nullptr) return markers;
-  if (beginAnew(*map) && with_markers) markers->markers.push_back(makeDeletionOfAll(map->frame_id));
-  if (!with_points) points_.clear();
-  if (with_markers) refresh();
+  const auto add = [&](const Marker& marker) {
+    markers->markers.push_back(marker);
+    budget.spend(ros::serialization::serializationLength(marker));
+  };
+  if (beginAnew(*map) && viewers.of_markers) add(makeDeletionOfAll(map->frame_id));
+  if (!viewers.of_points) points_.clear();
+  if (viewers.of_markers) refresh();
   for (int i = 0; i < parameters_.chunks_per_update && budget.left() > 0.0; ++i) {
     noteCoarse();
+    if (viewers.of_markers && viewers.took_all) {
+      for (const Marker& deletion : noteLacking(map->frame_id)) add(deletion);
+    }
     for (const MeshChunk& chunk : takeChunk(*map)) {
-      if (with_points) keepPoints(chunk);
-      if (!with_markers) continue;
-      markers->markers.push_back(markerOf(map->frame_id, chunk, budget.left()));
-      budget.spend(ros::serialization::serializationLength(markers->markers.back()));
+      if (viewers.of_points) keepPoints(chunk);
+      if (viewers.of_markers) add(markerOf(map->frame_id, chunk, budget.left()));
     }
   }
   return markers;
+}
+
+void LiveSurface::noteLost(const MarkerTraffic::Lost& lost) {
+  for (const int id : lost.ids) {
+    if (static_cast<size_t>(id) < marked_.size()) lacking_.insert(id);
+  }
+  if (!lost.all_deleted) return;
+  showAll();
+  generation_ = 0;  // the next update begins with a DELETEALL
 }
 
 bool LiveSurface::beginAnew(SharedMap& map) {
@@ -55,9 +70,12 @@ bool LiveSurface::beginAnew(SharedMap& map) {
   if (generation_ == chunks_->generation()) return false;
   generation_ = chunks_->generation();
   marker_ids_.clear();
+  marked_.clear();
   points_.clear();
   points_changed_ = true;
   coarse_.clear();
+  lacking_.clear();
+  left_of_round_ = 0;
   return true;
 }
 
@@ -71,17 +89,36 @@ void LiveSurface::noteCoarse() {
   if (chunks_->changedCount() == 0 && !coarse_.empty()) chunks_->noteAgain(*coarse_.begin());
 }
 
+std::vector<Marker> LiveSurface::noteLacking(const std::string& frame_id) {
+  std::vector<Marker> deletions;
+  while (chunks_->changedCount() == 0 && !lacking_.empty()) {
+    const int id = *lacking_.begin();
+    lacking_.erase(lacking_.begin());
+    if (!chunks_->noteAgain(marked_.at(static_cast<size_t>(id))))
+      deletions.push_back(makeDeletion(frame_id, id));
+  }
+  return deletions;
+}
+
 // One at a time, so that mapping never waits for more.
 std::vector<MeshChunk> LiveSurface::takeChunk(SharedMap& map) {
   return map.locked([this](FusedMap& fused) {
-    return generation_ == fused.map().generation() ? chunks_->takeChanged(1) : std::vector<MeshChunk>();
+    if (generation_ != fused.map().generation()) return std::vector<MeshChunk>();
+    if (left_of_round_ == 0) {
+      chunks_->sortChanged(fused.cameraPosition());
+      left_of_round_ = chunks_->changedCount();
+    }
+    if (left_of_round_ > 0) --left_of_round_;
+    return chunks_->takeChanged(1);
   });
 }
 
-visualization_msgs::Marker LiveSurface::markerOf(const std::string& frame_id, const MeshChunk& chunk,
-                                                 double left_bytes) {
-  const int id = marker_ids_.emplace(chunk.index, static_cast<int>(marker_ids_.size())).first->second;
+Marker LiveSurface::markerOf(const std::string& frame_id, const MeshChunk& chunk, double left_bytes) {
+  const auto [place, is_new] = marker_ids_.emplace(chunk.index, static_cast<int>(marked_.size()));
+  if (is_new) marked_.push_back(chunk.index);
+  const int id = place->second;
   coarse_.erase(chunk.index);
+  lacking_.erase(id);
   if (chunk.mesh.triangles.empty()) return makeDeletion(frame_id, id);
   const double share = shareOf(chunk, left_bytes);
   if (share < parameters_.triangle_share) coarse_.insert(chunk.index);

@@ -6,10 +6,10 @@ ParameterTable LiveSurfaceParameters::table() {
   return {number("chunk_blocks", &chunk_blocks, 1, 256,
                  "edge of the chunks in which the surface is published, in blocks"),
           number("chunks_per_update", &chunks_per_update, 1, 10000,
-                 "chunks published at a time at most; those that changed first come first"),
+                 "chunks published at a time at most; those near the camera come first"),
           number("refresh_chunks", &refresh_chunks, 0, 10000,
                  "chunks that did not change, published once more at each update that has room, in turn, for "
-                 "viewers that lost messages, or that joined another of their process; 0 = none"),
+                 "viewers that joined another of their process, or whose own queue is short; 0 = none"),
           number("triangle_share", &triangle_share, 0.001, 1.0,
                  "part of a chunk's triangles that its marker keeps; below 1 takes less bandwidth and more "
                  "of the CPU"),

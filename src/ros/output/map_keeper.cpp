@@ -29,7 +29,7 @@ std::string describe(const LoadedMap& loaded, const std::string& place, bool rea
 }  // namespace
 
 MapKeeper::MapKeeper(std::shared_ptr<SharedMap> map, FrameMapper& mapper,
-                     const MapKeeperParameters& parameters, ros::NodeHandle handle, Announce announce)
+                     const MapKeeperParameters& parameters, ros::NodeHandle handle, AnnounceMap announce)
     : map_(std::move(map)),
       mapper_(mapper),
       parameters_(parameters),

@@ -8,7 +8,6 @@
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "depth_fusion/submaps/map_file.h"
 #include "ros/callbacks/callback_gate.h"
 #include "ros/in_process/frame_mapper.h"
+#include "ros/output/map_commands.h"
 #include "ros/output/map_keeper_parameters.h"
 
 namespace depth_fusion {
@@ -25,12 +25,9 @@ namespace depth_fusion {
 // replaced.
 class MapKeeper {
  public:
-  // Tells tracker and users of what became of the map; is called in SharedMap::locked.
-  using Announce = std::function<void(const std::string& news, FusedMap& map)>;
-
   // Offers the services save_map and load_map in the handle's namespace. Keeps references.
   MapKeeper(std::shared_ptr<SharedMap> map, FrameMapper& mapper, const MapKeeperParameters& parameters,
-            ros::NodeHandle handle, Announce announce);
+            ros::NodeHandle handle, AnnounceMap announce);
   // Saves the map to map_file if it is kept there.
   ~MapKeeper();
 
@@ -60,7 +57,7 @@ class MapKeeper {
   const std::shared_ptr<SharedMap> map_;
   FrameMapper& mapper_;
   const MapKeeperParameters parameters_;
-  const Announce announce_;
+  const AnnounceMap announce_;
   std::unique_ptr<MapSaver> saver_;  // to the place of the last save or load
   std::string place_;                // of it
   uint32_t kept_generation_ = 0;     // of the map that belongs in map_file; 0: none does

@@ -54,15 +54,32 @@ fs::path rosHome() {
   return fs::path(home == nullptr ? "/" : home) / ".ros";
 }
 
-// As a shell does it: ~ and environment variables. Throws Error for what no shell would take.
+// The length of a beginning that stands for somebody's home, as ~/ or ~name/; 0 without one.
+size_t homeLength(const std::string& path) {
+  if (path.front() != '~') return 0;
+  const size_t length = std::min(path.find('/'), path.size());
+  const auto is_of_name = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+  };
+  const auto begin = path.begin();
+  const bool is_home = std::all_of(begin + 1, begin + static_cast<std::ptrdiff_t>(length), is_of_name);
+  return is_home ? std::min(length + 1, path.size()) : 0;
+}
+
+// As a shell does it: ~ at the beginning, and environment variables, whatever signs their values have. Throws
+// Error for what no shell would take.
 std::string expanded(const std::string& path) {
   wordexp_t words;
-  std::string quoted;  // whatever else a shell takes for more than a sign
-  for (const char c : path) {
-    const bool is_plain =
-        std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("_$~{}/.-", c) != nullptr;
-    quoted += is_plain ? std::string(1, c) : std::string("\\") + c;
+  const size_t home_end = homeLength(path);
+  std::string quoted = path.substr(0, home_end) + '"';
+  for (size_t i = home_end; i < path.size(); ++i) {
+    const char next = i + 1 < path.size() ? path[i + 1] : ' ';
+    const bool is_variable =
+        std::isalpha(static_cast<unsigned char>(next)) != 0 || next == '_' || next == '{';
+    if (std::strchr("\"\\`", path[i]) != nullptr || (path[i] == '$' && !is_variable)) quoted += '\\';
+    quoted += path[i];
   }
+  quoted += '"';
   const bool is_good = wordexp(quoted.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF) == 0;
   const std::string result = is_good && words.we_wordc == 1 ? words.we_wordv[0] : "";
   if (is_good) wordfree(&words);

@@ -7,7 +7,7 @@
 namespace depth_fusion {
 namespace {
 
-// A viewer that does not keep up costs so many messages of memory, and has the surface of later ones.
+// A viewer that does not keep up costs so many messages of memory, and gets the others again when it does.
 constexpr uint32_t kQueue = 2;
 
 // Whether a period is over; if so, the next one begins.
@@ -20,8 +20,8 @@ bool isDue(ros::WallTime& last, double rate_hz) {
 
 }  // namespace
 
-SurfacePublisher::SurfacePublisher(ros::NodeHandle& handle) {
-  // roscpp tells of a process's first subscriber to a topic; further ones have to wait for refresh_chunks.
+SurfacePublisher::SurfacePublisher(ros::NodeHandle& handle) : traffic_(kQueue) {
+  // roscpp tells of a process's first subscriber to a topic; further ones need refresh_chunks.
   const auto note_viewer = [this](const ros::SingleSubscriberPublisher&) { has_late_viewer_ = true; };
   marker_publisher_ = handle.advertise<visualization_msgs::MarkerArray>("markers", kQueue, note_viewer);
   point_publisher_ = handle.advertise<sensor_msgs::PointCloud2>("points", 1, note_viewer);
@@ -55,8 +55,8 @@ void SurfacePublisher::updateSurface(const std::shared_ptr<SharedMap>& map, cons
   if (has_late_viewer_.exchange(false)) surface_->showAll();
   budget_.refill(1e6 * live.max_bandwidth_mb_s, ros::WallTime::now());
   const visualization_msgs::MarkerArrayPtr markers =
-      surface_->update(markerViewers() > 0, pointViewers() > 0, budget_);
-  if (!markers->markers.empty()) marker_publisher_.publish(markers);
+      surface_->update({markerViewers() > 0, pointViewers() > 0, traffic_.isOver()}, budget_);
+  if (!markers->markers.empty()) surface_->noteLost(traffic_.publish(marker_publisher_, markers));
 }
 
 void SurfacePublisher::publishPoints(const std::string& frame_id) {

@@ -40,6 +40,7 @@ class SurfacePublisher {
   std::pair<uint32_t, size_t> blocks_{0, 0};  // generation and number of those shown
   ros::Publisher marker_publisher_, point_publisher_, block_publisher_;
   std::unique_ptr<LiveSurface> surface_;  // while somebody looks
+  MarkerTraffic traffic_;
   ByteBudget budget_;
   ros::WallTime last_points_, last_blocks_;
 };

@@ -14,12 +14,26 @@ constexpr double kLateOdometry_s = 0.5;      // older than the camera by more is
 constexpr double kStandingOdometry_s = 1.0;  // without news, before poses go on without it
 constexpr double kMoved = 1e-3;              // of a camera's pose in the root, more than rounding
 constexpr double kSameClock_s = 10.0;        // stamps farther from ROS time are another clock's
+constexpr double kAhead_s = 0.5;             // and images that are ahead of it by more are, too
 
 // The optical frame (z forward, y down) of a camera that looks along x with z up.
 Pose levelCamera() {
   Pose T_map_camera = Pose::Identity();
   T_map_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
   return T_map_camera;
+}
+
+std::string tenths(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f", value);
+  return text;
+}
+
+std::string otherClockText(double lag_s, const std::string& sent) {
+  return "the images' stamps are " + tenths(std::abs(lag_s)) + " s " + (lag_s > 0.0 ? "behind" : "ahead of") +
+         " ROS time, in which odometry on tf is; " + sent +
+         " goes by the odometry that is there when a pose comes, which is off by what the robot moves "
+         "meanwhile; let the camera's driver stamp in ROS time, or synchronise the clocks (chrony)";
 }
 
 }  // namespace
@@ -69,6 +83,7 @@ void TransformSender::followRoot(const std::string& camera_frame) {
 
 void TransformSender::takeRoot(const CameraTree::Root& root) {
   root_ = root;
+  has_other_clock_ = false;
   T_map_root_.reset();
   mounting_.reset();
   moves_ = root.frame == parameters_.odom_frame || isOdometry(root.frame);
@@ -88,6 +103,12 @@ void TransformSender::take(const std_msgs::Header& camera, const Pose& T_map_cam
   const auto placed = tree_.newest(root_.frame, camera.frame_id);
   if (placed && !movesInRoot(placed->T_frame_camera))
     return send(camera.stamp, T_map_camera * placed->T_frame_camera.inverse());
+  has_other_clock_ = placed && isOtherClock(placed->stamp);
+  if (has_other_clock_) {
+    waiting_.clear();
+    T_map_root_ = T_map_camera * placed->T_frame_camera.inverse();
+    return;
+  }
   waiting_.push_back(*last_);
   if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
 }
@@ -98,9 +119,15 @@ bool TransformSender::movesInRoot(const Pose& T_root_camera) {
   return moves_;
 }
 
+bool TransformSender::isOtherClock(const ros::Time& odometry) const {
+  const bool is_ros_time = lag_s() > -kAhead_s && lag_s() < kSameClock_s;
+  return !is_ros_time && (has_other_clock_ || std::abs(secondsBetween(odometry, last_taken_)) < kSameClock_s);
+}
+
 void TransformSender::reset() {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_.reset();
+  has_other_clock_ = false;
   waiting_.clear();
   T_map_root_.reset();
 }
@@ -109,7 +136,7 @@ void TransformSender::sendAhead() {
   const std::lock_guard<std::mutex> lock(mutex_);
   useNewestOdometry();
   if (!T_map_root_) return;
-  const ros::Time stamp = cameraTime() + ros::Duration(parameters_.transform_tolerance_s);
+  const ros::Time stamp = robotTime() + ros::Duration(parameters_.transform_tolerance_s);
   const bool clock_went_back = secondsBetween(stamp, last_sent_) > 1.0;
   if (stamp <= last_sent_ && !clock_went_back) return;  // a simulated clock stands still
   last_sent_ = stamp;
@@ -117,7 +144,7 @@ void TransformSender::sendAhead() {
 }
 
 void TransformSender::useNewestOdometry() {
-  if (waiting_.empty()) return;
+  if (waiting_.empty() && !has_other_clock_) return;
   const std::string camera_frame = last_->camera.frame_id;
   const auto placed = tree_.newest(root_.frame, camera_frame);
   if (placed && (!odometry_ || placed->stamp != odometry_->stamp)) odometry_came_ = ros::WallTime::now();
@@ -139,24 +166,25 @@ void TransformSender::send(const ros::Time& stamp, const Pose& T_map_root) {
       makeTransform(makeHeader(stamp, parameters_.map_frame), root_.frame, T_map_root));
 }
 
-ros::Time TransformSender::cameraTime() const {
+ros::Time TransformSender::robotTime() const {
   const ros::Time now = ros::Time::now();
-  const double lag_s = secondsBetween(last_->camera.stamp, last_taken_);
-  return std::abs(lag_s) < kSameClock_s ? now : ros::Time(std::max(now.toSec() - lag_s, 0.0));
+  if (has_other_clock_ || std::abs(lag_s()) < kSameClock_s) return now;
+  return ros::Time(std::max(now.toSec() - lag_s(), 0.0));
 }
+
+double TransformSender::lag_s() const { return secondsBetween(last_->camera.stamp, last_taken_); }
 
 std::string TransformSender::problem() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (waiting_.empty()) return "";
+  if (waiting_.empty() && !has_other_clock_) return "";
   const std::string way = root_.frame + " -> " + last_->camera.frame_id;
   if (!odometry_)
     return "tf does not connect " + way +
            ", so that no transform is sent; is odom_frame or base_frame right?";
-  const double age_s = secondsBetween(odometry_->stamp, cameraTime());
-  if (age_s < kLateOdometry_s) return "";
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.1f", age_s);
-  return "odometry on tf (" + way + ") is " + text + " s old; mapping goes on without it, and " +
+  const double age_s = secondsBetween(odometry_->stamp, robotTime());
+  if (age_s < kLateOdometry_s)
+    return has_other_clock_ ? otherClockText(lag_s(), parameters_.map_frame + " -> " + root_.frame) : "";
+  return "odometry on tf (" + way + ") is " + tenths(age_s) + " s old; mapping goes on without it, and " +
          parameters_.map_frame + " -> " + root_.frame + " with the last; does the robot's odometry run?";
 }
 

@@ -21,7 +21,8 @@ namespace depth_fusion {
 //
 // A root in which the camera never moves goes out with every pose, at the image's stamp. One in which it
 // does, as in odometry, goes out at a steady rate, stamped ahead, by the newest pose whose odometry has come,
-// and goes on while there are no poses. No pose waits for odometry. Thread-safe.
+// and goes on while there are no poses. No pose waits for odometry. Where the images have another clock than
+// odometry, each pose is taken with the odometry that is there when it comes. Thread-safe.
 class TransformSender {
  public:
   TransformSender(ros::NodeHandle handle, const PoseParameters& parameters);
@@ -52,9 +53,14 @@ class TransformSender {
   void takeRoot(const CameraTree::Root& root);
   // Whether the camera has been seen to move in the root, or is bound to.
   bool movesInRoot(const Pose& T_root_camera);
+  // Whether the images' stamps are not of ROS time, while odometry's are, or were as long as it lived.
+  bool isOtherClock(const ros::Time& odometry) const;
   void useNewestOdometry();
   void send(const ros::Time& stamp, const Pose& T_map_root);
-  ros::Time cameraTime() const;
+  // What time it is by the clock that odometry has, too.
+  ros::Time robotTime() const;
+  // How old the last image was when its pose came.
+  double lag_s() const;
 
   void sendAhead();
 
@@ -67,7 +73,8 @@ class TransformSender {
   std::optional<Pose> mounting_;  // T_root_camera as it was first seen
   bool moves_ = false;            // the camera, in the root
   std::optional<Tracked> last_;
-  ros::Time last_taken_;         // the ROS time at which it was
+  ros::Time last_taken_;  // the ROS time at which it was
+  bool has_other_clock_ = false;
   std::deque<Tracked> waiting_;  // for their odometry, oldest first
   std::optional<CameraTree::Placed> odometry_;
   ros::WallTime odometry_came_;

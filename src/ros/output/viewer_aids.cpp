@@ -2,8 +2,6 @@
 
 #include <visualization_msgs/Marker.h>
 
-#include <cmath>
-
 #include "ros/conversions/messages.h"
 
 namespace depth_fusion {
@@ -13,19 +11,13 @@ using visualization_msgs::Marker;
 ViewerAids::ViewerAids(ros::NodeHandle private_handle, const std::string& map_frame,
                        const std::string& view_frame)
     : map_frame_(map_frame),
-      view_frame_(view_frame),
+      view_(map_frame, view_frame),
       sign_publisher_(private_handle.advertise<Marker>("state_marker", 1, true)) {}
 
 void ViewerAids::showTracked(const ros::Time& stamp, const Pose& T_map_camera) {
   camera_ = T_map_camera.translation();
   if (!sign_.empty()) publishSign(Marker::DELETE, "");
-  if (view_frame_.empty()) return;
-  const Eigen::Vector3d axis = T_map_camera.linear().col(2);
-  if (!yaw_rad_) yaw_rad_ = std::atan2(axis.y(), axis.x());
-  Pose T_map_view = Pose::Identity();
-  T_map_view.translation() = camera_;
-  T_map_view.linear() = Eigen::AngleAxisd(*yaw_rad_, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  broadcaster_.sendTransform(makeTransform(makeHeader(stamp, map_frame_), view_frame_, T_map_view));
+  view_.follow(stamp, T_map_camera);
 }
 
 void ViewerAids::showSign(const std::string& text) {

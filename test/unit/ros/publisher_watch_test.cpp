@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace depth_fusion {
 namespace {
 
@@ -18,10 +20,32 @@ class PublisherWatchTest : public testing::Test {
 };
 
 TEST_F(PublisherWatchTest, CountsMessagesThatDidNotCome) {
-  EXPECT_EQ(judge("/camera", 7).missed, 0u) << "those before were sent to others";
+  EXPECT_EQ(judge("/camera", 6).missed, 0u) << "those before were sent to others";
+  EXPECT_EQ(judge("/camera", 7).missed, 0u);
   EXPECT_EQ(judge("/camera", 8).missed, 0u);
   EXPECT_EQ(judge("/camera", 12).missed, 3u);
   EXPECT_EQ(judge("/camera", 13).missed, 0u);
+}
+
+// As a network does that loses one message in three.
+TEST_F(PublisherWatchTest, CountsThemWhereManyAreLost) {
+  uint32_t seq = 0, taken = 0, missed = 0;
+  for (const uint32_t step : {1u, 1u, 1u, 1u, 2u, 1u, 2u, 1u, 1u, 2u, 1u, 1u, 1u, 3u, 1u, 1u, 1u}) {
+    missed += judge("/camera", seq += step).missed;
+    ++taken;
+  }
+  EXPECT_EQ(taken + missed, seq);
+}
+
+// What topic_tools' throttle and drop leave of a topic is all that was sent.
+TEST_F(PublisherWatchTest, ThinnedOutTopicsLoseNothing) {
+  const std::vector<std::vector<uint32_t>> patterns = {{3}, {2}, {4, 5}, {1, 2}, {6, 7, 7}, {1, 3}};
+  for (const std::vector<uint32_t>& steps : patterns) {
+    watch_ = PublisherWatch();
+    uint32_t seq = 100;
+    for (size_t i = 0; i < 60; ++i)
+      EXPECT_EQ(judge("/throttle", seq += steps[i % steps.size()]).missed, 0u) << steps[0] << ", " << i;
+  }
 }
 
 TEST_F(PublisherWatchTest, NumbersThatMeanNothingCountNothing) {

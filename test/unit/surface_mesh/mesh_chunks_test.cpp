@@ -146,6 +146,29 @@ TEST_P(MeshChunksOfSize, areTheWholeSurfaceAfterEveryChange) {
   EXPECT_FALSE(viewer.shown().empty());
 }
 
+TEST_F(MeshChunksTest, comeNearestFirstIfSorted) {
+  BlockMap map(compute(), parameters(8, 32));
+  ChangingMap scene(compute(), map);
+  MeshChunks chunks(compute(), map, {}, 1);
+  scene.show(sphere({0.0, 0.0, 0.0}, 0.07));
+  chunks.follow();
+  const Eigen::Vector3d point_W(0.1, 0.02, -0.03);
+  chunks.sortChanged(point_W);
+  const double edge_m = 8.0 * static_cast<double>(map.parameters().voxel_size_m);
+  double last_m = 0.0;
+  size_t taken = 0;
+  while (chunks.changedCount() > 0) {
+    for (const MeshChunk& chunk : chunks.takeChanged(1)) {
+      const Eigen::Vector3d centre(chunk.index[0] + 0.5, chunk.index[1] + 0.5, chunk.index[2] + 0.5);
+      const double distance_m = (edge_m * centre - point_W).norm();
+      EXPECT_GE(distance_m, last_m - 1e-9);
+      last_m = distance_m;
+      ++taken;
+    }
+  }
+  EXPECT_GT(taken, 20u);
+}
+
 TEST_F(MeshChunksTest, smallBatchesGiveTheSame) {
   BlockMap map(compute(), parameters(4));
   ChangingMap scene(compute(), map);
