@@ -99,6 +99,17 @@ TEST_F(MeshExport, givesColorsOnRequest) {
   EXPECT_EQ(readPly(call("colored.ply", 0.0, true).message).colors, map.mesh().colors);
 }
 
+TEST_F(MeshExport, saysThatTheMapHasNoColors) {
+  OfferedMap map(graph_.resolve("tsdf_fusion"));
+  map.show(ball({0.0, 0.0, 0.0}, 0.08));
+  load();
+  const ExportMesh::Response response = call("ball.ply", 0.0, true);
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_EQ(response.message.find(ros_home_ / "ball.ply"), 0u) << response.message;
+  EXPECT_NE(response.message.find("without colour"), std::string::npos) << response.message;
+  EXPECT_TRUE(readPly(ros_home_ / "ball.ply").colors.empty());
+}
+
 TEST_F(MeshExport, refusesWhatItCannotDo) {
   OfferedMap map(graph_.resolve("tsdf_fusion"));
   load();

@@ -143,6 +143,8 @@ ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& reque
   ExportMesh::Response response;
   response.success = true;
   response.message = path;
+  if (request.color && !snapshot->hasLayer(kColorLayer))
+    response.message += "; without colour, for the map has none: start with color:=true (map/color)";
   response.vertices = sink.size().vertices;
   response.triangles = sink.size().triangles;
   response.bytes = fs::file_size(path);
