@@ -22,6 +22,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   FrameResult result;
   TexturedFrame texture = ahead_.textureOf(frame, timers_);
   ahead_.announce(next);
+  if (session_.givesUpMap()) beginAnew();
   result.tracking = session_.step(frame, std::move(texture), view_, timers_);
   ahead_.prepare();
   fuseAndRender(frame, result);
@@ -39,6 +40,12 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   result.tracking.T_W_D = T_W_D;
   fuse(frame, result);
   return result;
+}
+
+void ReconstructionPipeline::beginAnew() {
+  session_.beginAnew();
+  map_.reset(Eigen::Vector3d::Zero());
+  view_ = nullptr;
 }
 
 void ReconstructionPipeline::fuseAndRender(const RgbdFrame& frame, FrameResult& result) {

@@ -74,7 +74,7 @@ class LiveTracker {
   const ModelView* view() const { return map_ == nullptr ? nullptr : map_->view.get(); }
   // The pose of the view; the origin without one.
   Pose viewPose() const { return view() == nullptr ? Pose::Identity() : view()->T_W_D; }
-  void warnOfNoise() const;
+  void warnOfNoise();
   // The map as seen from anywhere, for relocalisation. Throws Error if it is gone.
   const ModelView& render(const Pose& T_W_D);
 
@@ -90,7 +90,7 @@ class LiveTracker {
   std::shared_ptr<const MapView> map_;                        // what fusion last showed of it; null: nothing
   std::shared_ptr<const ModelView> rendered_;  // what render() returned last, while a frame is tracked
   uint32_t clock_jumps_ = 0;
-  bool noise_was_judged_ = false;  // of the session's first frame
+  bool noise_was_said_ = false;
 };
 
 }  // namespace depth_fusion
