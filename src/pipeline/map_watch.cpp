@@ -34,7 +34,7 @@ void MapWatch::add(double stamp_s, const TrackingResult& result) {
 
 void MapWatch::watchGuesses(double stamp_s, const TrackingResult& result) {
   guessed_.note(stamp_s, result.guessed_directions > 0);
-  if (guessed_.frames >= kManyGuesses) say(guessed_.since_s, "nothing measured " + result.reason);
+  if (guessed_.frames >= kManyGuesses) say(guessed_.since_s, result.reason);
 }
 
 void MapWatch::watchFit(double stamp_s, const Fit& fit) {
