@@ -6,7 +6,12 @@
 // A match fits by 1 - (r / (ICP_FIT_SIGMAS sigma))^2, at least 0 (the score of MSAC: P. Torr, A. Zisserman,
 // "MLESAC", CVIU 2000).
 // Residual r = n . (T p - q); Jacobian with respect to the twist (rotation, translation) applied on the left
-// of T: J = [(T p) x n, n].
+// of T: J = [(T p) x n, n], n the model's normal. In J^T w J the squared errors of n make motions along a
+// bare wall look determined. The structure is the mean of J^T w Js and its transpose, Js = [(T p) x s, s], s
+// the source's normal: the errors of n and s are independent, and their products vanish in the sum
+// (instrumental variables: T. Soderstrom, "Errors-in-variables methods in system identification", 2018). It
+// is taken over all points that are near enough and face the same way: to keep only those whose normals agree
+// would pair alike errors.
 #include "shared/image.h"
 #include "shared/normal.h"
 #ifndef GROUP_SIZE
@@ -50,28 +55,39 @@ __kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) void accumulate
     const vfloat dx = px - (TO_VFLOAT(u) - model.cx) / model.fx * qz;
     const vfloat dy = py - (TO_VFLOAT(v) - model.cy) / model.fy * qz;
     const vfloat dz = pz - qz;
-    const vfloat cosine = n.x * rotated(T_M_D, 0, s.x, s.y, s.z) + n.y * rotated(T_M_D, 1, s.x, s.y, s.z) +
-                          n.z * rotated(T_M_D, 2, s.x, s.y, s.z);
+    const vfloat sx = rotated(T_M_D, 0, s.x, s.y, s.z);
+    const vfloat sy = rotated(T_M_D, 1, s.x, s.y, s.z);
+    const vfloat sz = rotated(T_M_D, 2, s.x, s.y, s.z);
+    const vfloat cosine = n.x * sx + n.y * sy + n.z * sz;
     inlier = inlier & (qz > 0.0f) & (model_normal != 0);
     sums[31] += select((vfloat)(0.0f), (vfloat)(1.0f), inlier);
-    inlier = inlier & (dx * dx + dy * dy + dz * dz < args.max_distance_m * args.max_distance_m) &
-             (cosine > args.min_normal_cosine);
-    if (!ANY(inlier)) continue;
+    const vint near =
+        inlier & (dx * dx + dy * dy + dz * dz < args.max_distance_m * args.max_distance_m) & (cosine > 0.0f);
+    if (!ANY(near)) continue;
+    inlier = near & (cosine > args.min_normal_cosine);
 
     const vfloat residual = n.x * dx + n.y * dy + n.z * dz;
     const vfloat sigma_m = AXIAL_SIGMA_M(sensor, depth);
     const vfloat huber =
         min(args.huber_sigmas * sigma_m / max(fabs(residual), (vfloat)(1e-6f)), (vfloat)(1.0f));
-    const vfloat weight =
-        select((vfloat)(0.0f), huber * (ICP_UNIT_SIGMA_M * ICP_UNIT_SIGMA_M) / (sigma_m * sigma_m), inlier);
+    const vfloat weight_near =
+        select((vfloat)(0.0f), huber * (ICP_UNIT_SIGMA_M * ICP_UNIT_SIGMA_M) / (sigma_m * sigma_m), near);
+    const vfloat weight = select((vfloat)(0.0f), weight_near, inlier);
     const vfloat jacobian[6] = {py * n.z - pz * n.y, pz * n.x - px * n.z, px * n.y - py * n.x, n.x, n.y, n.z};
+    const vfloat of_source[6] = {py * sz - pz * sy, pz * sx - px * sz, px * sy - py * sx, sx, sy, sz};
     int k = 0;
     for (int i = 0; i < 6; ++i) {
       const vfloat weighted = select((vfloat)(0.0f), weight * jacobian[i], inlier);
-      for (int j = i; j < 6; ++j) sums[k++] += weighted * jacobian[j];
+      const vfloat near_of_model = select((vfloat)(0.0f), weight_near * jacobian[i], near);
+      const vfloat near_of_source = select((vfloat)(0.0f), weight_near * of_source[i], near);
+      for (int j = i; j < 6; ++j) {
+        sums[k] += weighted * jacobian[j];
+        sums[33 + k++] += near_of_model * of_source[j] + near_of_source * jacobian[j];
+      }
       sums[21 + i] += weighted * residual;
     }
     sums[27] += select((vfloat)(0.0f), weight * residual * residual, inlier);
+    sums[32] += weight;
     sums[28] += select((vfloat)(0.0f), (vfloat)(1.0f), inlier);
     const vfloat sigmas = residual / (ICP_FIT_SIGMAS * sigma_m);
     sums[30] += select((vfloat)(0.0f), max(1.0f - sigmas * sigmas, (vfloat)(0.0f)), inlier);

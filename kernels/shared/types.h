@@ -206,9 +206,9 @@ typedef struct {
 } MeshBlockArgs;
 
 // Sums of the ICP system: the upper triangle of J^T w J row by row, J^T w r, w r^2, the number of inliers,
-// the number of source points, the inliers' fit, and the number of points that a surface of the view lies
-// behind or before.
-#define ICP_SUMS 32
+// the number of source points, the inliers' fit, the number of points that a surface of the view lies behind
+// or before, w, and the upper triangle of twice the structure.
+#define ICP_SUMS 54
 #define ICP_FIT_SIGMAS \
   3.0f  // residual, in standard deviations of the sensor, from which on a match does not fit
 #define ICP_UNIT_SIGMA_M 0.0012f  // of the sensor's sigma, where a match's weight is 1

@@ -1,10 +1,16 @@
 #include "icp_tracking/degeneracy.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
 
 namespace depth_fusion {
 namespace {
+
+// Pixels whose normals share their errors.
+constexpr double kAlikeNormals = 30.0;
 
 char dominantAxis(const Eigen::Vector3d& direction) {
   Eigen::Index axis = 0;
@@ -14,45 +20,50 @@ char dominantAxis(const Eigen::Vector3d& direction) {
 
 }  // namespace
 
-DegeneracyAnalysis::DegeneracyAnalysis(const IcpSystem& system, const Eigen::AlignedBox3d& box,
-                                       double threshold)
-    : to_shrunk_(Matrix6d::Identity()),
-      system_(system),
-      weights_(system.weights()),
-      threshold_(threshold),
-      size_(box.sizes()) {
+DegeneracyAnalysis::DegeneracyAnalysis(const IcpSystem& system, const Matrix6d& judged,
+                                       const Eigen::AlignedBox3d& box, double threshold)
+    : to_shrunk_(Matrix6d::Identity()), system_(system), threshold_(threshold), size_(box.sizes()) {
   size_ = size_.cwiseMax(1e-3);
   const Eigen::Matrix3d shrink = size_.cwiseInverse().asDiagonal();
   to_shrunk_.topLeftCorner<3, 3>() = shrink;
   to_shrunk_.topRightCorner<3, 3>() = -shrink * crossMatrix(box.center());
-  const Matrix6d shrunk = to_shrunk_ * system.hessian * to_shrunk_.transpose() / weights_;
+  const Matrix6d shrunk = to_shrunk_ * judged * to_shrunk_.transpose() / system.weights;
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(shrunk);
   eigenvalues_ = solver.eigenvalues();
   eigenvectors_ = solver.eigenvectors();
-  shrunk_gradient_ = to_shrunk_ * system.gradient / weights_;
-  while (free_ < 6 && !(eigenvalues_(free_) > threshold)) ++free_;
+  const Matrix6d hessian = to_shrunk_ * system.hessian * to_shrunk_.transpose() / system.weights;
+  const Vector6d noise = (eigenvectors_.transpose() * hessian * eigenvectors_).diagonal() - eigenvalues_;
+  uncertainties_ = noise.cwiseMax(0.0) * std::sqrt(kAlikeNormals / std::max(system.inliers, 1.0));
+  free_ = freeUpTo(threshold);
 }
 
 IcpSystem DegeneracyAnalysis::constrained() const {
   const auto kept = eigenvectors_.rightCols(6 - free_);
-  const Matrix6d back = to_shrunk_.inverse();
+  const Matrix6d projection = to_shrunk_.inverse() * kept * kept.transpose() * to_shrunk_;
   IcpSystem result = system_;
-  result.hessian = weights_ * back * kept * eigenvalues_.tail(6 - free_).asDiagonal() * kept.transpose() *
-                   back.transpose();
-  result.gradient = weights_ * back * kept * (kept.transpose() * shrunk_gradient_);
+  result.hessian = projection * system_.hessian * projection.transpose();
+  result.gradient = projection * system_.gradient;
   return result;
 }
 
-Vector6d DegeneracyAnalysis::solve() const {
-  const auto kept = eigenvectors_.rightCols(6 - free_);
-  const Eigen::VectorXd components =
-      (kept.transpose() * -shrunk_gradient_).cwiseQuotient(eigenvalues_.tail(6 - free_));
-  return to_shrunk_.transpose() * (kept * components);
+Vector6d DegeneracyAnalysis::solve(const Vector6d& so_far) const {
+  const Eigen::MatrixXd kept = to_shrunk_.transpose() * eigenvectors_.rightCols(6 - free_);
+  const Eigen::MatrixXd hessian = kept.transpose() * system_.hessian * kept;
+  const auto free = eigenvectors_.leftCols(free_);
+  const Vector6d back =
+      to_shrunk_.transpose() * (free * (free.transpose() * (to_shrunk_.transpose().inverse() * so_far)));
+  return kept * hessian.ldlt().solve(kept.transpose() * -system_.gradient) - back;
+}
+
+int DegeneracyAnalysis::freeUpTo(double threshold) const {
+  int free = 0;
+  while (threshold > 0.0 && free < 6 && !(eigenvalues_(free) > threshold + uncertainties_(free))) ++free;
+  return free;
 }
 
 std::string DegeneracyAnalysis::namesUpTo(double threshold) const {
   std::string names;
-  for (int i = 0; i < 6 && !(eigenvalues_(i) > threshold); ++i) {
+  for (int i = 0; i < freeUpTo(threshold); ++i) {
     // At the box's centre the shrunk translation is metric; the shrunk rotation is the motion at the box's
     // border.
     const Vector6d shrunk = eigenvectors_.col(i);

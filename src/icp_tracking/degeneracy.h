@@ -15,28 +15,35 @@ namespace depth_fusion {
 // r^, t = t^ - r x m (the paper prints r = S r^, t = t^ + r x m, which does not keep c . r + n . t).
 class DegeneracyAnalysis {
  public:
-  // threshold: the paper's theta, of the eigenvalues divided by the sum of the matches' weights.
-  DegeneracyAnalysis(const IcpSystem& system, const Eigen::AlignedBox3d& box, double threshold);
+  // threshold: the paper's theta, of the eigenvalues divided by the sum of the matches' weights, which are to
+  // be larger by a standard deviation; 0: nothing is free.
+  // `judged` decides what is free: the system's hessian, or its structure.
+  DegeneracyAnalysis(const IcpSystem& system, const Matrix6d& judged, const Eigen::AlignedBox3d& box,
+                     double threshold);
 
   int freeDirections() const { return free_; }
   // The smallest eigenvalue divided by the sum of the weights.
   double smallestEigenvalue() const { return eigenvalues_(0); }
   // The system without what it says about the free directions.
   IcpSystem constrained() const;
-  // The solution with no motion along the free directions.
-  Vector6d solve() const;
+  // The solution, which along the free directions takes back the motion `so_far`.
+  Vector6d solve(const Vector6d& so_far = Vector6d::Zero()) const;
   // The free directions in words, in the frame of the system: "sliding along x, rotating about z".
   std::string freeDirectionNames() const { return namesUpTo(threshold_); }
   // The same of the directions that would be free by another threshold.
   std::string namesUpTo(double threshold) const;
 
  private:
+  int freeUpTo(double threshold) const;
+
   Matrix6d to_shrunk_;  // J^ = to_shrunk * J; twists: x = to_shrunk^T * x^
   IcpSystem system_;
-  Vector6d eigenvalues_;   // ascending, divided by the sum of the weights
-  Matrix6d eigenvectors_;  // of the shrunk system, in columns
-  Vector6d shrunk_gradient_;
-  double weights_ = 0.0, threshold_;
+  Vector6d eigenvalues_;   // of what is judged, shrunk, ascending, divided by the sum of the weights
+  Matrix6d eigenvectors_;  // in columns
+  // The eigenvalues' standard deviations: what the normals' noise adds to the hessian, over the root of the
+  // number of normals that are independent.
+  Vector6d uncertainties_;
+  double threshold_;
   Eigen::Vector3d size_;
   int free_ = 0;
 };

@@ -10,14 +10,17 @@ namespace depth_fusion {
 // Sum over the inliers of w J^T J x = -w J^T r, with x = (rotation, translation) applied on the left.
 struct IcpSystem {
   Matrix6d hessian = Matrix6d::Zero();
+  // An estimate of the hessian without the share of the normals' noise; slightly indefinite where nothing
+  // else is left.
+  Matrix6d structure = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   double squared_residuals = 0.0;  // weighted
   double inliers = 0.0;
   double source_points = 0.0;
   double fit = 0.0;             // sum over the inliers of 1 - (r / (ICP_FIT_SIGMAS sigma))^2, each at least 0
   double covered_points = 0.0;  // source points that are seen where the model has a surface
-  // normals have unit length, so that the trace of the translation block is the sum of the weights
-  double weights() const { return hessian.bottomRightCorner<3, 3>().trace(); }
+  double weights = 0.0;         // sum over the inliers
+
   double rmse() const;  // metres, weighted
 };
 

@@ -25,12 +25,19 @@ struct IcpTracker::Alignment {
   Matrix6d covariance = Matrix6d::Identity();
   double prior_sigmas = 0.0;    // how far geometry alone is from the prior
   std::string free_directions;  // those that geometry says weakly among them
-  bool is_determined = true;    // by geometry alone, weakly at least
+  int free = 0;                 // directions that geometry does not even say weakly
   double smallest_eigenvalue = 0.0;
   int iterations = 0;
 };
 
 namespace {
+
+// No surface leaves more directions free than a plane does, or a sphere.
+constexpr int kMostFree = 3;
+// Of the threshold: what geometry says at least, where nothing else says anything.
+constexpr double kWeakly = 0.5;
+// What is guessed may be off by a third of a metre, or of a radian.
+constexpr double kGuessInformation = 9.0;
 
 // Why the result is not to be trusted, or nothing.
 std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker::SystemPrior& prior,
@@ -53,8 +60,8 @@ std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker:
   } else if (T_prior_D.translation().norm() > parameters.max_translation_m ||
              rotationAngle(T_prior_D) > parameters.max_rotation_rad) {
     reason << "jump of " << T_prior_D.translation().norm() << " m, " << rotationAngle(T_prior_D) << " rad";
-  } else if (!alignment.is_determined && !prior.information) {
-    reason << "the geometry seen leaves free " << alignment.free_directions << ", and no texture helps";
+  } else if (alignment.free > kMostFree && !prior.information) {
+    reason << "the geometry seen leaves free " << alignment.free_directions << ", and nothing else helps";
   }
   return reason.str();
 }
@@ -115,8 +122,9 @@ IcpSystem weighed(const IcpSystem& system, double correlated) {
 Solution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const IcpTracker::SystemPrior& prior,
                double correlated) {
   const IcpSystem system = weighed(analysis.constrained(), correlated);
-  if (!prior.information) return {analysis.solve(), system.hessian.inverse()};
   const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
+  if (!prior.information)
+    return {analysis.solve(deviation), (system.hessian + kGuessInformation * Matrix6d::Identity()).inverse()};
   const Matrix6d information = system.hessian + *prior.information;
   const Vector6d gradient = system.gradient + *prior.information * deviation;
   return {information.ldlt().solve(-gradient), information.inverse()};
@@ -169,8 +177,9 @@ MatchGates IcpTracker::gatesAt(int level) const {
 
 bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView& view,
                             const SystemPrior& prior, const Eigen::AlignedBox3d& box, Alignment& alignment) {
-  // What geometry says weakly is worth more than no measurement.
-  const double threshold = parameters_.degeneracy_threshold * (prior.information ? 1.0 : 0.1);
+  // What geometry says weakly is worth more than no measurement. The structure tells what is free where
+  // matches are right; where they are not yet, it is smaller.
+  const double threshold = parameters_.degeneracy_threshold * (prior.information ? 1.0 : kWeakly);
   const int iterations[] = {parameters_.fine_iterations, parameters_.middle_iterations,
                             parameters_.coarse_iterations};
   const MatchGates gates = gatesAt(level);
@@ -180,7 +189,8 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
         kernels_->accumulateSystem(frame.levels[level], view, alignment.T_M_D, gates, partial_sums_);
     ++alignment.iterations;
     if (alignment.system.inliers < 6.0) return false;
-    const DegeneracyAnalysis analysis(alignment.system, box, threshold);
+    const IcpSystem& system = alignment.system;
+    const DegeneracyAnalysis analysis(system, level == 0 ? system.structure : system.hessian, box, threshold);
     const Solution solution = solve(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
     const Vector6d step = limited(solution.twist, gates, box);
     alignment.T_M_D = poseFromTwist(step) * alignment.T_M_D;
@@ -188,7 +198,7 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
     const bool converged = step.head<3>().norm() < coarseness * parameters_.convergence_rad &&
                            step.tail<3>().norm() < coarseness * parameters_.convergence_m;
     if (!converged && i + 1 < iterations[level]) continue;
-    alignment.is_determined = analysis.freeDirections() == 0;
+    alignment.free = analysis.freeDirections();
     alignment.free_directions = analysis.namesUpTo(parameters_.degeneracy_threshold);
     alignment.smallest_eigenvalue = analysis.smallestEigenvalue();
     alignment.prior_sigmas =
@@ -246,6 +256,7 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
   result.covariance = to_world * alignment.covariance * to_world.transpose();
   result.reason = lostReason(alignment, system_prior, parameters_);
   if (!result.reason.empty()) return result;
+  result.guessed_directions = prior.covariance ? 0 : alignment.free;
   result.reason = alignment.free_directions;
   result.status = result.reason.empty() ? TrackingStatus::kTracking : TrackingStatus::kDegenerate;
   return result;

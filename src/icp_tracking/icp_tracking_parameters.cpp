@@ -35,7 +35,7 @@ ParameterTable IcpTrackingParameters::table() {
              "residual, in standard deviations of the sensor, from which a match's weight falls"),
       number("degeneracy_threshold", &degeneracy_threshold, 0.0, 1.0,
              "eigenvalue a match, in the unit cube, up to which a direction is left to the prior (the "
-             "paper's theta)"),
+             "paper's theta); 0: none is"),
       number("correlated_points", &correlated_points, 1.0, 1e6,
              "matches that count as one measurement against a prior, for their errors are alike"),
       number("min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0,

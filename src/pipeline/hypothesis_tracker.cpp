@@ -52,6 +52,13 @@ bool explainsMore(const TrackingResult& a, const TrackingResult& b) {
 
 }  // namespace
 
+TrackingResult lostIfGuessed(TrackingResult result) {
+  if (isLost(result) || result.guessed_directions == 0) return result;
+  result.status = TrackingStatus::kLost;
+  result.reason = "the geometry seen leaves free " + result.reason + ", and nothing else helps";
+  return result;
+}
+
 TrackingResult HypothesisTracker::track(const DepthFrame& frame, const ModelView& view,
                                         const MotionPrior& prior, const std::vector<MotionPrior>& others,
                                         StageTimers& timers) {
@@ -80,7 +87,7 @@ TrackingResult HypothesisTracker::track(const DepthFrame& frame, const ModelView
 TrackingResult HypothesisTracker::search(const DepthFrame& frame, const ModelView& view,
                                          const MotionPrior& start, StageTimers& timers) {
   const Pose T_W_D = tracker_.bestStart(frame, view, around(start.T_W_D), timers);
-  return orLost(tracker_.track(frame, view, {T_W_D, std::nullopt, "search"}, timers));
+  return orLost(lostIfGuessed(tracker_.track(frame, view, {T_W_D, std::nullopt, "search"}, timers)));
 }
 
 void HypothesisTracker::accept(const TrackingResult& result) {

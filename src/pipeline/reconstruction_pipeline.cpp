@@ -25,6 +25,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   FrameResult result;
   TexturedFrame texture = ahead_.textureOf(frame, timers_);
   ahead_.announce(next);
+  if (session_.givesUpMap()) beginAnew();
   result.tracking = session_.step(frame, std::move(texture), view_, timers_);
   ahead_.prepare();
   fuseAndRender(frame, result);
@@ -58,6 +59,12 @@ SaveReport ReconstructionPipeline::save(MapSaver& saver) {
   saver.prepare();
   saver.capture(map_, descriptionOf(parameters_, camera_, last_pose_), session_.keyframes());
   return saver.write();
+}
+
+void ReconstructionPipeline::beginAnew() {
+  session_.beginAnew();
+  map_.reset(Eigen::Vector3d::Zero());
+  view_ = nullptr;
 }
 
 void ReconstructionPipeline::fuseAndRender(const RgbdFrame& frame, FrameResult& result) {

@@ -10,6 +10,8 @@
 namespace depth_fusion {
 namespace {
 
+constexpr char kStart[] = "start";
+constexpr char kGuessed[] = "; nothing measures that, and the pose stays where it was expected";
 constexpr int kFramesAtGiven = 10;  // in which the sensor is searched for at a pose that was given
 
 // Poses about one that was given by eye, the pose itself first: aside, ahead and turned.
@@ -29,6 +31,11 @@ std::vector<Pose> aboutGiven(const Pose& T_W_D) {
     }
   }
   return poses;
+}
+
+// Whether frames are compensated for the sensor's motion.
+bool bendsFrames(const PreprocessingParameters& parameters) {
+  return parameters.readout_s != 0.0f || parameters.stamp_delay_s != 0.0f;
 }
 
 }  // namespace
@@ -56,15 +63,16 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
   check(!found_, "TrackingSession: the frame before is not concluded");
   if (!ahead_) prepareAhead(frame, texture, timers);
   const MotionPrior predicted = takePrepared(frame);
-  const MotionPrior prior = view == nullptr ? MotionPrior{start, std::nullopt, "start"} : predicted;
-  TrackingResult result =
-      view == nullptr ? begin(frame, prior) : track(prior, texture.features, *view, timers);
-  if (view == nullptr) result.prior = prior.origin;
+  TrackingResult result = view == nullptr ? begin(frame, begins_anew_for_.empty() ? start : predicted.T_W_D)
+                                          : track(frame, predicted, texture.features, *view, timers);
+  if (result.guessed_directions > 0 && result.status != TrackingStatus::kLost) result.reason += kGuessed;
+  result.map_doubt = watch_.doubt();
   if (result.status == TrackingStatus::kLost) {
     motion_.lose();
+    if (view != nullptr && pointsInRange(frame) >= parameters_.icp_tracking.min_inliers) young_map_.miss();
   } else {
     given_.reset();
-    found_ = {std::move(texture.features), result, motion_};
+    found_ = {frame.stamp_s, std::move(texture.features), result, motion_};
     motion_.moveTo(frame.stamp_s, result.T_W_D);
   }
   return result;
@@ -90,6 +98,10 @@ void TrackingSession::conclude(bool fused) {
     check(found_.has_value(), "TrackingSession: no frame is to be concluded");
     relocaliser_.add(found_->features, found_->result.T_W_D);
     tracker_.accept(found_->result);
+    const bool begins_map = found_->result.prior == kStart;
+    begins_map ? young_map_.begin() : young_map_.grow();
+    if (begins_map) begins_anew_for_.clear();
+    watch_.add(found_->stamp_s, found_->result);
   } else {
     if (found_) {
       motion_ = found_->unless_fused;
@@ -115,6 +127,9 @@ void TrackingSession::reset(const Pose& T_W_D, Keyframes keyframes) {
   given_.reset();
   relocaliser_.reset(std::move(keyframes));
   tracker_.reset();
+  young_map_.forget();
+  watch_.reset();
+  begins_anew_for_.clear();
 }
 
 void TrackingSession::searchAt(const Pose& T_W_D) {
@@ -123,23 +138,60 @@ void TrackingSession::searchAt(const Pose& T_W_D) {
   given_ = {T_W_D, kFramesAtGiven};
 }
 
-TrackingResult TrackingSession::begin(const RgbdFrame& frame, const MotionPrior& prior) const {
-  const int points = cv::countNonZero(depthInRange(frame, parameters_.depthRange()));
+void TrackingSession::beginAnew() {
+  begins_anew_for_ = young_map_.reason();
+  relocaliser_.reset();
+  tracker_.reset();
+  young_map_.forget();
+  watch_.reset();
+}
+
+TrackingResult TrackingSession::begin(const RgbdFrame& frame, const Pose& T_W_D) const {
   TrackingResult first;
+  first.prior = kStart;
+  const int points = pointsInRange(frame);
   if (points < parameters_.icp_tracking.min_inliers) {
     first.reason = "only " + std::to_string(points) + " points with depth in range to begin with";
   } else {
     first.status = TrackingStatus::kTracking;
-    first.T_W_D = prior.T_W_D;
+    first.reason = begins_anew_for_;
+    first.T_W_D = T_W_D;
   }
   return first;
 }
 
-TrackingResult TrackingSession::track(const MotionPrior& prior, const FrameFeatures& features,
-                                      const ModelView& view, StageTimers& timers) {
+int TrackingSession::pointsInRange(const RgbdFrame& frame) const {
+  return cv::countNonZero(depthInRange(frame, parameters_.depthRange()));
+}
+
+TrackingResult TrackingSession::track(const RgbdFrame& frame, const MotionPrior& prior,
+                                      const FrameFeatures& features, const ModelView& view,
+                                      StageTimers& timers) {
   TrackingResult result;
-  if (motion_.isTracking()) result = tracker_.track(*depth_, view, prior, motion_.otherStarts(), timers);
+  if (motion_.isTracking()) {
+    result = tracker_.track(*depth_, view, prior, motion_.otherStarts(), timers);
+    const bool is_misled = result.status == TrackingStatus::kLost || !result.dropped_prior.empty();
+    if (is_misled && prior.covariance && bendsFrames(parameters_.preprocessing))
+      result = trackUnbent(frame, prior, result, view, timers);
+  }
   return result.status == TrackingStatus::kLost ? relocalise(prior, features, result, timers) : result;
+}
+
+TrackingResult TrackingSession::trackUnbent(const RgbdFrame& frame, const MotionPrior& prior,
+                                            const TrackingResult& bent, const ModelView& view,
+                                            StageTimers& timers) {
+  const std::shared_ptr<const DepthFrame> bent_depth = depth_;
+  const std::vector<MotionPrior> starts = motion_.otherStarts();
+  preprocessor_.process(frame, motion_.knownVelocity(), timers);
+  depth_ = preprocessor_.result();
+  TrackingResult result = tracker_.track(*depth_, view, starts.back(), starts, timers);
+  if (result.status == TrackingStatus::kLost) {
+    depth_ = bent_depth;
+    return bent;
+  }
+  result.dropped_prior = prior.origin;
+  result.prior_sigmas = bent.prior_sigmas;
+  return result;
 }
 
 TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const FrameFeatures& features,
@@ -181,6 +233,7 @@ TrackingResult TrackingSession::trackFrom(const MotionPrior& prior, StageTimers&
 }
 
 TrackingResult TrackingSession::orStillLost(TrackingResult result) const {
+  result = lostIfGuessed(std::move(result));
   if (result.status == TrackingStatus::kLost ||
       result.inlier_fraction >= parameters_.relocalisation.min_inlier_fraction) {
     return result;

@@ -11,7 +11,11 @@ ParameterTable RelocalisationParameters::table() {
                  "keyframes kept in memory, some 200 kB each; 0: no relocalisation"),
           number("max_candidates", &max_candidates, 1, 1000, "keyframes that a lost frame is matched to"),
           number("min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0,
-                 "a lost frame stays lost if a smaller part of its points matches the model view")};
+                 "a lost frame stays lost if a smaller part of its points matches the model view"),
+          number("young_map_frames", &young_map_frames, 0, 100,
+                 "a map of so many frames at most begins anew if nothing fits it; 0: no map does"),
+          number("give_up_after_frames", &give_up_after_frames, 1, 10000,
+                 "frames in a row that do not fit such a map, until it begins anew")};
 }
 
 }  // namespace depth_fusion

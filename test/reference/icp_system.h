@@ -70,22 +70,34 @@ class IcpReference {
     ++system_.covered_points;
     const Eigen::Vector3d q = model_.point(x, y);
     const Eigen::Vector3d n = model_.normal(x, y);
-    if ((p - q).norm() >= max_distance_m_ || n.dot(T_M_D_.linear() * normal_D) <= min_normal_cosine_) return;
+    if ((p - q).norm() >= max_distance_m_ || n.dot(T_M_D_.linear() * normal_D) <= 0.0) return;
     const double sigma = sensorSigma(p_D.z());
     const double huber = std::min(1.0, huber_sigmas_ * sigma / std::max(std::abs(n.dot(p - q)), 1e-6));
-    addMatch(p, q, n, huber * std::pow(ICP_UNIT_SIGMA_M / sigma, 2), sigma);
+    addMatch({p, q, n, T_M_D_.linear() * normal_D}, huber * std::pow(ICP_UNIT_SIGMA_M / sigma, 2), sigma);
   }
 
-  void addMatch(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& n, double weight,
-                double sigma) {
-    const auto residual = [&](const Pose& motion) { return n.dot(motion * p - q); };
-    const double r = residual(Pose::Identity());
+  // The points p of the source and q of the model, and their normals.
+  struct Match {
+    Eigen::Vector3d p, q, model_normal, source_normal;
+  };
+
+  Vector6d jacobianAlong(const Eigen::Vector3d& normal, const Match& match) const {
     Vector6d jacobian;
     for (int i = 0; i < 6; ++i)
-      jacobian[i] = (residual(forward_[i]) - residual(backward_[i])) / (2.0 * kStep);
+      jacobian[i] = normal.dot(forward_[i] * match.p - backward_[i] * match.p) / (2.0 * kStep);
+    return jacobian;
+  }
+
+  void addMatch(const Match& match, double weight, double sigma) {
+    const double r = match.model_normal.dot(match.p - match.q);
+    const Vector6d jacobian = jacobianAlong(match.model_normal, match);
+    const Matrix6d product = jacobian * jacobianAlong(match.source_normal, match).transpose();
+    system_.structure += weight * 0.5 * (product + product.transpose());
+    if (match.model_normal.dot(match.source_normal) <= min_normal_cosine_) return;
     system_.hessian += weight * jacobian * jacobian.transpose();
     system_.gradient += weight * r * jacobian;
     system_.squared_residuals += weight * r * r;
+    system_.weights += weight;
     ++system_.inliers;
     system_.fit += std::max(0.0, 1.0 - std::pow(r / (ICP_FIT_SIGMAS * sigma), 2));
   }

@@ -86,6 +86,17 @@ TEST_F(DiagnosticsOf, ASensorThatIsLost) {
   EXPECT_EQ(valueOf(sendUntil("icp_tracking", DiagnosticStatus::WARN, "paused"), "state"), "paused");
 }
 
+// A bare wall without texture, along which the sensor may slide unnoticed.
+TEST_F(DiagnosticsOf, AMapThatMayBeWrong) {
+  frame_.depth.setTo(1.0 / frame_.depth_unit_m);
+  frame_.color.setTo(cv::Scalar::all(0));
+  loadTracking();
+  const DiagnosticStatus status =
+      sendUntil("icp_tracking", DiagnosticStatus::WARN, "the map may be wrong since");
+  EXPECT_EQ(valueOf(status, "state"), "degenerate");
+  EXPECT_NE(status.message.find("nothing measures that"), std::string::npos) << status.message;
+}
+
 TEST_F(DiagnosticsOf, ATrackerWithoutAMap) {
   ASSERT_TRUE(graph_.load("icp_tracking"));
   ASSERT_TRUE(graph_.load("texture_odometry"));

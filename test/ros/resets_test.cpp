@@ -71,6 +71,31 @@ TEST_F(Resets, EmptyMapAndTracker) {
   EXPECT_TRUE(fromMessage(poses_.awaitStamp(first->header.stamp)->pose.pose).translation().isZero());
 }
 
+// A map of two frames, and then another place.
+TEST_F(Resets, BeginAMapAnewThatNothingFits) {
+  loadTracking();
+  fuseAll(simulatedFrames(smallRoom(2)));
+  const uint32_t before = map_status_.all().back()->generation;
+  const Pose T_W_last = poseOf(poses_.all().back()->pose.pose);
+  SimulationOptions options = smallRoom(30);
+  options.scene = "cylinder";
+  TrackerStatus::ConstPtr status;
+  for (RgbdFrame& frame : simulatedFrames(options)) {
+    frame.stamp_s += 1.0;
+    status = track(frame);
+    ASSERT_NE(status, nullptr);
+    if (status->state != TrackerStatus::LOST) break;
+  }
+  ASSERT_NE(status->state, TrackerStatus::LOST) << status->reason;
+  EXPECT_NE(status->reason.find("a map begins anew"), std::string::npos) << status->reason;
+  const auto of_map = map_status_.awaitStamp(status->header.stamp);
+  ASSERT_NE(of_map, nullptr);
+  EXPECT_TRUE(of_map->fused) << of_map->reason;
+  EXPECT_NE(of_map->generation, before);
+  EXPECT_NE(of_map->reason.find("a map begins anew"), std::string::npos) << of_map->reason;
+  expectPose(poseOf(poses_.awaitStamp(status->header.stamp)->pose.pose), T_W_last, 0.3, 0.3);
+}
+
 TEST_F(Resets, RefuseFramesFromBefore) {
   mapSomeFrames();
   resetVolume();

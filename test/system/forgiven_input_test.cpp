@@ -52,6 +52,14 @@ TEST_F(ForgivenInput, status_says_that_most_frames_were_lost) {
   EXPECT_EQ(readReport(out())["frames"]["tracked"], 2);
 }
 
+TEST_F(ForgivenInput, noise_is_said_as_soon_as_a_frame_shows_it) {
+  writePng(readTimedFiles(room() + "/depth.txt").front().path, cv::Mat::zeros(480, 640, CV_16UC1));
+  const std::string params = folder_ / "exact_sensor.yaml";
+  writeText(params, "depth_sensor: {sigma_base_m: 0.0003, sigma_growth_per_m: 0.0004}\n");
+  const AppRun run = reconstruct({room(), "--params", params});
+  EXPECT_NE(run.output.find("frame 2: depth has a sigma of"), std::string::npos) << run.output;
+}
+
 // As ICL-NUIM has it: fy < 0, and poses of a camera with y up in a world with y up.
 TEST_F(ForgivenInput, y_up_is_turned_down_and_so_are_poses) {
   const std::string poses = room() + "/groundtruth.txt";

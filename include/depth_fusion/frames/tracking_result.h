@@ -10,20 +10,24 @@ namespace depth_fusion {
 enum class TrackingStatus {
   kTracking,
   kDegenerate,  // geometry leaves directions free, or says them weakly; the pose has them from a measured
-                // prior, if there is one
+                // prior, or they are guessed
   kLost
 };
 
 struct TrackingResult {
   TrackingStatus status = TrackingStatus::kLost;
-  std::string reason;             // why tracking is lost, or which directions are free; else empty
-  Pose T_W_D = Pose::Identity();  // valid unless lost
+  std::string
+      reason;  // why tracking is lost, which directions are free, or why a map begins anew; else empty
+  Pose T_W_D = Pose::Identity();               // valid unless lost
   Matrix6d covariance = Matrix6d::Identity();  // of the twist applied to T_W_D on the left
   std::string prior;  // the origin of the prior that tracking began with; empty if the frame was not tracked
   // How far depth alone is from the prior, in standard deviations of both (Mahalanobis, divided by the root
   // of the number of directions that depth constrains); 0 for a prior without a covariance.
   double prior_sigmas = 0.0;
   std::string dropped_prior;  // the origin of a measured prior that depth contradicts; prior_sigmas is its
+  // So many free directions were not measured by anything: along them the pose is where it was expected.
+  int guessed_directions = 0;
+  std::string map_doubt;  // why the map may be wrong, and since when; empty if nothing speaks for it
   int inliers = 0;
   double inlier_fraction = 0.0;  // of the frame's points with depth and normal
   // How much of the frame the map explains: the mean, over the points that are seen where the map has a

@@ -31,8 +31,8 @@ class IcpTracker {
   void setParameters(const IcpTrackingParameters& parameters);
 
   // Aligns the frame to the view, coarse to fine, starting from the prior. A prior with a covariance takes
-  // part in the solution and fills the directions that geometry leaves free; without one, free directions
-  // mean that it is lost.
+  // part in the solution and fills the directions that geometry leaves free; without one the pose stays where
+  // it is along them (TrackingResult::guessed_directions).
   TrackingResult track(const DepthFrame& frame, const ModelView& view, const MotionPrior& prior,
                        StageTimers& timers);
   // Aligns the frame to the view from each of the starts (T_W_D, one at least) at the coarsest level, and

@@ -18,7 +18,7 @@ struct IcpTrackingParameters {
   float huber_sigmas = 2.0f;
   float convergence_rad = 1e-4f;
   float convergence_m = 1e-4f;
-  float degeneracy_threshold = 0.005f;
+  float degeneracy_threshold = 0.001f;
   float correlated_points = 300.0f;
   float min_inlier_fraction = 0.25f;
   int min_inliers = 2000;

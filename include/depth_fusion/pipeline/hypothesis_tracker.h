@@ -7,6 +7,9 @@
 
 namespace depth_fusion {
 
+// A pose that is searched for is measured in all directions, or the frame is lost.
+TrackingResult lostIfGuessed(TrackingResult result);
+
 class HypothesisTracker {
  public:
   HypothesisTracker(ComputeContext& compute, const IcpTrackingParameters& parameters,

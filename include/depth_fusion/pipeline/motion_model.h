@@ -30,6 +30,8 @@ class MotionModel {
   // The sensor's velocity in its own frame D: rotation (rad/s), translation (m/s). Zero where nothing says
   // how fast the sensor is.
   const Vector6d& velocity() const { return velocity_; }
+  // The velocity that the last known pose was reached by.
+  const Vector6d& knownVelocity() const { return known_velocity_; }
 
  private:
   std::optional<StampedPose> tracked_;    // the frame before; none if that is lost

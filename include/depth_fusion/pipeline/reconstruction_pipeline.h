@@ -23,8 +23,9 @@ class ReconstructionPipeline {
   ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
                          const CameraIntrinsics& camera);
 
-  // Tracks the frame and fuses it; a lost frame changes nothing in the map. `next` announces the frame of the
-  // next call, if it is there already: its texture odometry then runs beside this frame's stages, and its
+  // Tracks the frame and fuses it; a lost frame changes nothing in the map, but many lost frames have a map
+  // of a few frames begin anew (RelocalisationParameters::young_map_frames). `next` announces the frame of
+  // the next call, if it is there already: its texture odometry then runs beside this frame's stages, and its
   // preprocessing beside this frame's fusion and model view, with the same results. Throws Error if another
   // frame was announced.
   FrameResult processFrame(const RgbdFrame& frame, const RgbdFrame* next = nullptr);
@@ -47,6 +48,7 @@ class ReconstructionPipeline {
   size_t keyframeCount() const { return session_.keyframes().size(); }
 
  private:
+  void beginAnew();
   // Fuses the session's frame and renders the view that the next one is tracked against. A frame that an
   // exception leaves unfinished is given up, so that the next one can come.
   void fuseAndRender(const RgbdFrame& frame, FrameResult& result);

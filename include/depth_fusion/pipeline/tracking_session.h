@@ -8,8 +8,10 @@
 
 #include "depth_fusion/frames/textured_frame.h"
 #include "depth_fusion/pipeline/hypothesis_tracker.h"
+#include "depth_fusion/pipeline/map_watch.h"
 #include "depth_fusion/pipeline/motion_model.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
+#include "depth_fusion/pipeline/young_map.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
 #include "depth_fusion/relocalisation/relocaliser.h"
 #include "depth_fusion/texture_odometry/texture_odometry.h"
@@ -52,6 +54,11 @@ class TrackingSession {
   // Somebody says where the sensor is, to half a metre or so: it is searched for there first.
   void searchAt(const Pose& T_W_D);
 
+  // The map is of few frames, and nothing fits it: whoever owns it had better empty it.
+  bool givesUpMap() const { return young_map_.isGivenUp(parameters_.relocalisation); }
+  // The map is emptied; the next step() without a view begins it anew where the sensor is expected.
+  void beginAnew();
+
   // The frame of the last step() or follow(), preprocessed.
   std::shared_ptr<const DepthFrame> depth() const { return depth_; }
   const Keyframes& keyframes() const { return relocaliser_.keyframes(); }
@@ -65,16 +72,23 @@ class TrackingSession {
   };
   // A frame with a pose that is not concluded.
   struct FoundFrame {
+    double stamp_s;
     FrameFeatures features;
     TrackingResult result;
     MotionModel unless_fused;
   };
 
   MotionPrior takePrepared(const RgbdFrame& frame);
-  // A tracked frame at the prior, if its depth suffices for the next one to be tracked against.
-  TrackingResult begin(const RgbdFrame& frame, const MotionPrior& prior) const;
-  TrackingResult track(const MotionPrior& prior, const FrameFeatures& features, const ModelView& view,
-                       StageTimers& timers);
+  // A tracked frame at T_W_D, if its depth suffices for the next one to be tracked against.
+  TrackingResult begin(const RgbdFrame& frame, const Pose& T_W_D) const;
+  // Tracks the frame against the view, or lost against what else the map shows.
+  TrackingResult track(const RgbdFrame& frame, const MotionPrior& prior, const FrameFeatures& features,
+                       const ModelView& view, StageTimers& timers);
+  // Tracks a frame whose prior misled also the compensation of its motion: its depth is preprocessed once
+  // more, by the motion of before.
+  TrackingResult trackUnbent(const RgbdFrame& frame, const MotionPrior& prior, const TrackingResult& bent,
+                             const ModelView& view, StageTimers& timers);
+  int pointsInRange(const RgbdFrame& frame) const;
   // Tracks against the map as it is seen from where a keyframe, or after a loss the prior, says that the
   // sensor is. Returns `lost` if nothing fits.
   TrackingResult relocalise(const MotionPrior& prior, const FrameFeatures& features,
@@ -92,6 +106,9 @@ class TrackingSession {
   Relocaliser relocaliser_;
   TextureOdometry matcher_;  // of frames to keyframes
   MotionModel motion_;
+  YoungMap young_map_;
+  MapWatch watch_;
+  std::string begins_anew_for_;  // why the next map is one that begins anew; else empty
   std::shared_ptr<const DepthFrame> depth_;
   std::optional<FoundFrame> found_;
   std::optional<PreparedFrame> ahead_;

@@ -11,6 +11,8 @@ struct RelocalisationParameters {
   int max_keyframes = 200;
   int max_candidates = 5;
   float min_inlier_fraction = 0.5f;
+  int young_map_frames = 5;
+  int give_up_after_frames = 15;
 
   ParameterTable table();
 };

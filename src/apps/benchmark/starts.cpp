@@ -86,10 +86,11 @@ class StartJudge {
   void write(double stamp_s, const TrackingResult& tracking, const PoseError& error, const PoseError& step) {
     const char* status[] = {"tracking", "degenerate", "lost"};
     csv_ << std::quoted(name_) << ',' << std::to_string(stamp_s) << ','
-         << status[static_cast<int>(tracking.status)] << ',' << tracking.prior << ',' << tracking.explained
-         << ',' << tracking.inlier_fraction << ',' << tracking.rmse_m << ',' << tracking.prior_sigmas << ','
+         << status[static_cast<int>(tracking.status)] << ',' << tracking.guessed_directions << ','
+         << tracking.prior << ',' << tracking.explained << ',' << tracking.match_quality << ','
+         << tracking.inlier_fraction << ',' << tracking.rmse_m << ',' << tracking.prior_sigmas << ','
          << tracking.smallest_eigenvalue << ',' << error.m << ',' << error.rad << ',' << step.m << ','
-         << step.rad << '\n';
+         << step.rad << ',' << std::quoted(tracking.map_doubt) << '\n';
   }
 
   const TrackingInput& input_;
@@ -141,9 +142,8 @@ std::string faultLine(const std::string& what, const StartOutcome& outcome) {
 void runStarts(const TrackingBenchmark& options) {
   std::filesystem::create_directories(options.output);
   std::ofstream csv(options.output + "/starts.csv");
-  csv << "start,stamp_s,status,prior,explained,inlier_fraction,rmse_m,prior_sigmas,smallest_eigenvalue,error_"
-         "m,error_rad,step_m,step_"
-         "rad\n";
+  csv << "start,stamp_s,status,guessed,prior,explained,match_quality,inlier_fraction,rmse_m,prior_sigmas,"
+         "smallest_eigenvalue,error_m,error_rad,step_m,step_rad,map_doubt\n";
   ComputeContext compute(options.device);
   std::mt19937 random(options.seed);
   const std::vector<TrackingInput> inputs = startInputs(options);

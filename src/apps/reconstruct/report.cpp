@@ -32,6 +32,7 @@ nlohmann::ordered_json trackingJson(const RunCounts& counts, const Reconstructio
             {"degenerate", counts.degenerate},
             {"lost", counts.lost}}},
           {"losses", losses},
+          {"map_doubt", counts.map_doubt},
           {"keyframes", pipeline.keyframeCount()}};
 }
 

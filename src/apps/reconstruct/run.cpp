@@ -45,8 +45,10 @@ class Run {
   void say(const std::string& event) const;
   // Says the first time that a frame's colour cannot be used, or its stamp.
   void noteProblems(const RgbdFrame& frame);
-  // Says after the first frame if its noise is not what the sensor model says.
-  void noteNoise() const;
+  // Says once if the noise is not what the sensor model says.
+  void noteNoise();
+  // Says once that the map may be wrong.
+  void noteDoubt(const std::string& doubt);
   void noteMostLost();
   void showProgress(bool last);
   // Returns 0 before the first frame.
@@ -76,6 +78,7 @@ class Run {
   bool color_was_bad_ = false;
   bool stamp_was_bad_ = false;
   bool window_was_left_ = false;
+  bool noise_was_said_ = false;
   bool failed_ = false;
 };
 
@@ -118,7 +121,7 @@ void Run::fuseRecording() {
     if (options_.max_frames == 0 || counts_.read < options_.max_frames) next = nextFrame();
     noteProblems(*frame);
     fuseFrame(*frame, next ? &*next : nullptr);
-    if (counts_.read == 1) noteNoise();
+    noteNoise();
     showProgress(false);
     frame = std::move(next);
   }
@@ -196,6 +199,8 @@ void Run::noteResult(const RgbdFrame& frame, const FrameResult& result) {
   if (degenerate) ++counts_.degenerate;
   if (result.color.fused) ++counts_.colored;
   status_ = degenerate ? "degenerate: " + tracking.reason : "tracking";
+  if (!degenerate && !tracking.reason.empty()) say(tracking.reason);
+  noteDoubt(tracking.map_doubt);
   trajectory_.push_back({frame.stamp_s, tracking.T_W_D});
   if (result.fusion.blocks_allocated < result.fusion.blocks_requested && !pool_was_full_) {
     pool_was_full_ = true;
@@ -235,11 +240,18 @@ void Run::noteProblems(const RgbdFrame& frame) {
   }
 }
 
-void Run::noteNoise() const {
+void Run::noteNoise() {
   const std::shared_ptr<const DepthFrame> depth = pipeline_->depth();
-  if (depth == nullptr) return;
+  if (depth == nullptr || noise_was_said_) return;
   const std::string remark = noiseRemark(options_.parameters.depth_sensor, depth->levels[0].sensor);
-  if (!remark.empty()) say(remark);
+  noise_was_said_ = !remark.empty();
+  if (noise_was_said_) say(remark);
+}
+
+void Run::noteDoubt(const std::string& doubt) {
+  if (doubt.empty() || !counts_.map_doubt.empty()) return;
+  counts_.map_doubt = doubt;
+  std::cerr << "reconstruct: " << doubt << std::endl;
 }
 
 void Run::noteMostLost() {

@@ -29,6 +29,8 @@ TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingRe
   status.header = header;
   status.state = static_cast<uint8_t>(result.status);
   status.reason = result.reason;
+  status.guessed_directions = result.guessed_directions;
+  status.map_doubt = result.map_doubt;
   status.inliers = result.inliers;
   status.inlier_fraction = result.inlier_fraction;
   status.rmse_m = result.rmse_m;
@@ -57,6 +59,7 @@ void diagnose(const TrackerStatus& tracker, const std::string& problem, const st
   } else if (!tracker.reason.empty()) {
     status.summary(DiagnosticStatus::WARN, tracker.reason);
   }
+  if (!tracker.map_doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, tracker.map_doubt);
   status.add("state", tracker.frames.received == 0 ? "no frame yet" : stateName(tracker.state));
   status.add("inliers", tracker.inliers);
   status.add("rmse_m", tracker.rmse_m);

@@ -27,7 +27,8 @@ MappingOutcome FrameMapper::map(const TrackedFrame& frame, FusedMap& map, bool r
   if (admission.begins_map) empty(map);
   MappingOutcome outcome = fuse(frame, map, timers);
   if (!admission.begins_map || state.is_empty) return outcome;
-  outcome.reason = kEmptied + (outcome.reason.empty() ? "" : "; " + outcome.reason);
+  const std::string& why = frame.tracking.reason.empty() ? kEmptied : frame.tracking.reason;
+  outcome.reason = why + (outcome.reason.empty() ? "" : "; " + outcome.reason);
   ROS_WARN_STREAM(outcome.reason);
   return outcome;
 }

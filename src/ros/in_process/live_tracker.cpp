@@ -40,7 +40,7 @@ LiveResult LiveTracker::track(const TexturedSensorFrame& frame, StageTimers& tim
     const Pose start = view() == nullptr ? robot_.start_pose(frame.sensor->header) : Pose::Identity();
     result.tracking = session_->step(frame.sensor->rgbd, frame.texture, view(), timers, start);
     rendered_.reset();
-    if (!std::exchange(noise_was_judged_, true)) warnOfNoise();
+    if (!noise_was_said_) warnOfNoise();
   } else {
     result.lost_for = result.tracking.reason;
     session_->lose();
@@ -74,10 +74,11 @@ Keyframes LiveTracker::keyframesOf(const std::shared_ptr<const MapView>& view) c
   return map == nullptr ? Keyframes() : map->keyframesOf(view->map_generation);
 }
 
-void LiveTracker::warnOfNoise() const {
+void LiveTracker::warnOfNoise() {
   const std::string remark =
       noiseRemark(parameters_.pipeline.depth_sensor, session_->depth()->levels[0].sensor);
-  if (!remark.empty()) ROS_WARN("%s", remark.c_str());
+  noise_was_said_ = !remark.empty();
+  if (noise_was_said_) ROS_WARN("%s", remark.c_str());
 }
 
 LiveResult LiveTracker::fail(const std::string& error) {
@@ -117,7 +118,7 @@ void LiveTracker::makeSession(const CameraIntrinsics& camera) {
       *compute_, pipelineParameters(), camera,
       [this](const Pose& T_W_D) -> const ModelView& { return render(T_W_D); });
   camera_ = camera;
-  noise_was_judged_ = false;
+  noise_was_said_ = false;
   session_->reset(viewPose(), keyframesOf(map_));
 }
 
@@ -146,6 +147,11 @@ void LiveTracker::catchUp(const SensorFrame& frame) {
     }
   }
   if (map_ != nullptr && map_->map.expired()) changeMap(nullptr);  // tsdf_fusion was unloaded
+  if (session_->givesUpMap() && fusion_.mode() == MapMode::kMapping) {
+    session_->beginAnew();
+    map_ = nullptr;
+    fusion_.beginMap();
+  }
   skipped_.replay(frame, *session_);
 }
 

@@ -79,7 +79,7 @@ class LiveTracker {
   const ModelView* view() const { return map_ == nullptr ? nullptr : map_->view.get(); }
   // The pose of the view; the origin without one.
   Pose viewPose() const { return view() == nullptr ? Pose::Identity() : view()->T_W_D; }
-  void warnOfNoise() const;
+  void warnOfNoise();
   // Lets whoever saves the map have its keyframes.
   void shareKeyframes();
   Keyframes keyframesOf(const std::shared_ptr<const MapView>& map) const;
@@ -99,7 +99,7 @@ class LiveTracker {
   std::shared_ptr<const MapView> map_;                        // what fusion last showed of it; null: nothing
   std::shared_ptr<const ModelView> rendered_;  // what render() returned last, while a frame is tracked
   uint32_t clock_jumps_ = 0;
-  bool noise_was_judged_ = false;  // of the session's first frame
+  bool noise_was_said_ = false;
   KeyframePtr last_shared_;
   std::mutex expected_mutex_;
   std::optional<Pose> T_map_base_;  // as somebody said, until the next frame

@@ -10,6 +10,7 @@
 #include "shared/types.h"
 #include "support/normal_images.h"
 #include "support/test_compute.h"
+#include "tools/simulation/sensor_model.h"
 #include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
@@ -79,8 +80,10 @@ void expectLost(const TrackingResult& result, const std::string& reason) {
 double largestRelativeDifference(const IcpSystem& a, const IcpSystem& b) {
   const Vector6d scale = b.hessian.diagonal().cwiseSqrt();
   const Matrix6d hessian = (a.hessian - b.hessian).cwiseQuotient(scale * scale.transpose());
+  const Matrix6d structure = (a.structure - b.structure).cwiseQuotient(scale * scale.transpose());
   const Vector6d gradient = (a.gradient - b.gradient).cwiseQuotient(scale * std::sqrt(b.squared_residuals));
-  return std::max(hessian.cwiseAbs().maxCoeff(), gradient.cwiseAbs().maxCoeff());
+  return std::max(
+      {hessian.cwiseAbs().maxCoeff(), structure.cwiseAbs().maxCoeff(), gradient.cwiseAbs().maxCoeff()});
 }
 
 TEST(IcpSystem, EqualsTheReferenceWithNumericalJacobian) {
@@ -105,6 +108,7 @@ TEST(IcpSystem, EqualsTheReferenceWithNumericalJacobian) {
       EXPECT_LT(expected.inliers, 0.99 * expected.source_points);
       EXPECT_NEAR(system.inliers / expected.inliers, 1.0, 1e-3);
       EXPECT_NEAR(system.covered_points / expected.covered_points, 1.0, 1e-3);
+      EXPECT_NEAR(system.weights / expected.weights, 1.0, 1e-3);
       EXPECT_NEAR(system.rmse() / expected.rmse(), 1.0, 1e-3);
       EXPECT_NEAR(system.fit / expected.fit, 1.0, 1e-3);
       EXPECT_LT(largestRelativeDifference(system, expected), 1e-3);
@@ -121,6 +125,7 @@ IcpSystem systemOf(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>
     jacobian << p.cross(n), n;
     system.hessian += jacobian * jacobian.transpose();
     system.gradient -= jacobian * jacobian.dot(motion);
+    system.weights += 1.0;
   }
   return system;
 }
@@ -145,7 +150,7 @@ TEST(DegeneracyAnalysis, SolvesWhereNothingIsFree) {
   Vector6d motion;
   motion << 0.01, -0.02, 0.03, 0.1, -0.2, 0.05;
   const IcpSystem system = systemOf(planes({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), motion);
-  const DegeneracyAnalysis analysis(system, kBox, 0.005);
+  const DegeneracyAnalysis analysis(system, system.hessian, kBox, 0.005);
   EXPECT_EQ(analysis.freeDirections(), 0);
   EXPECT_TRUE(analysis.solve().isApprox(motion, 1e-9));
   EXPECT_TRUE(analysis.constrained().hessian.isApprox(system.hessian, 1e-9));
@@ -155,7 +160,8 @@ TEST(DegeneracyAnalysis, SolvesWhereNothingIsFree) {
 TEST(DegeneracyAnalysis, NamesWhatAPlaneLeavesFree) {
   Vector6d motion;
   motion << 0.01, -0.02, 0.03, 0.1, -0.2, 0.05;
-  const DegeneracyAnalysis analysis(systemOf(planes({{0, 0, 1}}), motion), kBox, 0.005);
+  const IcpSystem system = systemOf(planes({{0, 0, 1}}), motion);
+  const DegeneracyAnalysis analysis(system, system.hessian, kBox, 0.005);
   EXPECT_EQ(analysis.freeDirections(), 3);
   EXPECT_NEAR(analysis.smallestEigenvalue(), 0.0, 1e-9);
   const std::string names = analysis.freeDirectionNames();
@@ -167,11 +173,16 @@ TEST(DegeneracyAnalysis, NamesWhatAPlaneLeavesFree) {
   EXPECT_NEAR(found(1), motion(1), 1e-9);
   EXPECT_NEAR(found(5), motion(5), 1e-9);
   EXPECT_NEAR(found(2), 0.0, 1e-9);
+  // Of a motion so far it takes back what lies within the plane.
+  const Vector6d back = analysis.solve(motion) - found;
+  EXPECT_NEAR(back(2), -motion(2), 1e-9);
+  EXPECT_NEAR(back(0), 0.0, 1e-9);
+  EXPECT_NEAR(back(1), 0.0, 1e-9);
 }
 
 TEST(DegeneracyAnalysis, TwoPlanesLeaveOneDirection) {
-  const DegeneracyAnalysis analysis(systemOf(planes({{0, 1, 0}, {0, 0, 1}}), Vector6d::Ones() * 0.01), kBox,
-                                    0.005);
+  const IcpSystem system = systemOf(planes({{0, 1, 0}, {0, 0, 1}}), Vector6d::Ones() * 0.01);
+  const DegeneracyAnalysis analysis(system, system.hessian, kBox, 0.005);
   EXPECT_EQ(analysis.freeDirectionNames(), "sliding along x");
 }
 
@@ -262,8 +273,8 @@ TEST(IcpTracker, LostBeyondItsLimits) {
   expectLost(track(sight, view, T_W_M, exact), "rmse");
 }
 
-// A wall alone leaves three motions free.
-TEST(IcpTracker, LostBeforeAWall) {
+// A wall alone leaves three motions free, and nothing says how the sensor moved along them.
+TEST(IcpTracker, GuessesBeforeAWall) {
   const CameraIntrinsics camera = cameraOfWidth(160);
   Pose T_W_D = Pose::Identity();
   for (const double tilt_rad : {0.0, 0.4}) {
@@ -271,7 +282,42 @@ TEST(IcpTracker, LostBeforeAWall) {
     const Scene wall({plane(Eigen::Vector3d(0, 0, 1.5), -Eigen::Vector3d::UnitZ(), Material())});
     const RgbdFrame frame = frameOfScene(wall, camera, T_W_D);
     const ModelView view = Sight(camera, frame).asView(T_W_D);
-    expectLost(track(Sight(camera, frame), view, T_W_D), "the geometry seen leaves free");
+    const TrackingResult result = track(Sight(camera, frame), view, T_W_D);
+    EXPECT_EQ(result.status, TrackingStatus::kDegenerate);
+    EXPECT_EQ(result.guessed_directions, 3) << result.reason;
+  }
+}
+
+Scene bareWall() { return Scene({plane({0, 0, 1.5}, {0, 0, -1}, Material())}); }
+
+// A column on the y axis of its camera, with nothing behind.
+Scene bareColumn() { return Scene({cylinder({0, -2, 1.5}, {0, 2, 1.5}, 0.5, Material())}); }
+
+RgbdFrame sensedFrame(const Scene& scene, const CameraIntrinsics& camera, const Pose& T_W_D, uint64_t seed) {
+  RgbdFrame frame;
+  frame.depth = senseDepth(render(scene, camera, T_W_D), kinectSensor(), seed);
+  return frame;
+}
+
+// The map is one frame, as noisy as the one that is tracked: the normals' errors do not make motions along
+// the surface look determined.
+TEST(IcpTracker, NoiseDeterminesNothing) {
+  const CameraIntrinsics camera = cameraOfWidth(320);
+  Pose truth = Pose::Identity();
+  truth.translation() << 0.004, 0.01, 0.005;
+  for (const auto& [scene, free] : {std::pair(bareWall(), 3), std::pair(bareColumn(), 2)}) {
+    for (const uint64_t seed : {1, 2, 3}) {
+      const Sight model(camera, sensedFrame(scene, camera, Pose::Identity(), seed));
+      const ModelView view = model.asView(Pose::Identity());
+      const Sight sight(camera, sensedFrame(scene, camera, truth, seed + 100));
+      const TrackingResult result = track(sight, view, Pose::Identity());
+      ASSERT_EQ(result.status, TrackingStatus::kDegenerate) << result.smallest_eigenvalue;
+      EXPECT_EQ(result.guessed_directions, free) << result.reason;
+      EXPECT_NEAR(result.T_W_D.translation().y(), 0.0, 0.002) << "stays where it was expected";
+      EXPECT_NEAR(result.T_W_D.translation().z(), truth.translation().z(), 0.001) << "is measured";
+      EXPECT_GT(result.covariance(4, 4), 0.01);
+      EXPECT_LT(result.covariance(5, 5), 1e-4);
+    }
   }
 }
 

@@ -152,19 +152,80 @@ TEST(ReconstructionPipeline, ComesBackAfterABlackoutAndAJump) {
   EXPECT_GT(back.fusion.blocks_updated, 0u);
 }
 
+std::vector<RgbdFrame> framesOf(const std::string& scene, int count) {
+  SimulationOptions options;
+  options.scene = scene;
+  options.frames = count;
+  options.intrinsics = kCamera;
+  std::vector<RgbdFrame> frames;
+  SimulatedRecording recording(options);
+  while (std::optional<RgbdFrame> frame = recording.next()) frames.push_back(std::move(*frame));
+  return frames;
+}
+
 // Another place looks like none of the keyframes: lost it stays.
 TEST(ReconstructionPipeline, StaysLostInAnotherPlace) {
   ReconstructionPipeline pipeline(compute(), coarseRoomParameters(), kCamera);
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[i])));
   const MapContent before = readMap(pipeline.map());
-  SimulationOptions options;
-  options.scene = "cylinder";
-  options.frames = 12;
-  options.intrinsics = kCamera;
-  SimulatedRecording elsewhere(options);
-  while (const std::optional<RgbdFrame> frame = elsewhere.next())
-    expectLost(pipeline.processFrame(*frame), "");
+  for (const RgbdFrame& frame : framesOf("cylinder", 12)) expectLost(pipeline.processFrame(frame), "");
   EXPECT_TRUE(readMap(pipeline.map()) == before);
+}
+
+TEST(ReconstructionPipeline, AMapOfAFewFramesThatNothingFitsBeginsAnew) {
+  PipelineParameters parameters = coarseRoomParameters();
+  parameters.relocalisation.young_map_frames = 3;
+  parameters.relocalisation.give_up_after_frames = 4;
+  ReconstructionPipeline pipeline(compute(), parameters, kCamera);
+  FrameResult last;
+  for (int i = 0; i < 3; ++i) last = pipeline.processFrame(roomFrames()[i]);
+  ASSERT_TRUE(isTracking(last)) << last.tracking.reason;
+  const uint32_t generation = pipeline.map().generation();
+
+  const std::vector<RgbdFrame> frames = framesOf("cylinder", 12);
+  for (int i = 0; i < 4; ++i) {
+    expectLost(pipeline.processFrame(frameWithoutDepth()), "");  // says nothing about the map
+    expectLost(pipeline.processFrame(frames[i]), "");
+  }
+  EXPECT_EQ(pipeline.map().generation(), generation);
+  const FrameResult first = pipeline.processFrame(frames[4]);
+  ASSERT_TRUE(isTracking(first)) << first.tracking.reason;
+  EXPECT_NE(first.tracking.reason.find("begins anew"), std::string::npos) << first.tracking.reason;
+  EXPECT_NE(pipeline.map().generation(), generation);
+  EXPECT_LT((last.tracking.T_W_D.inverse() * first.tracking.T_W_D).translation().norm(), 0.2)
+      << "goes on where the sensor is expected";
+  for (int i = 5; i < 12; ++i) {
+    const FrameResult result = pipeline.processFrame(frames[i]);
+    EXPECT_NE(result.tracking.status, TrackingStatus::kLost) << i << " " << result.tracking.reason;
+  }
+}
+
+TEST(ReconstructionPipeline, AMapOfManyFramesStays) {
+  PipelineParameters parameters = coarseRoomParameters();
+  parameters.relocalisation.young_map_frames = 3;
+  parameters.relocalisation.give_up_after_frames = 4;
+  ReconstructionPipeline pipeline(compute(), parameters, kCamera);
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(isTracking(pipeline.processFrame(roomFrames()[i])));
+  for (const RgbdFrame& frame : framesOf("cylinder", 8)) expectLost(pipeline.processFrame(frame), "");
+}
+
+// Without texture nothing says how the sensor moves along it.
+TEST(ReconstructionPipeline, BeforeABareWallPosesAreGuessedAndALostSensorIsNotFound) {
+  PipelineParameters parameters = coarseRoomParameters();
+  parameters.texture_odometry.enabled = false;
+  ReconstructionPipeline pipeline(compute(), parameters, kCamera);
+  const std::vector<RgbdFrame> frames = framesOf("wall", 20);
+  TrackingResult last;
+  for (int i = 0; i < 18; ++i) {
+    last = pipeline.processFrame(frames[i]).tracking;
+    EXPECT_EQ(last.status, i == 0 ? TrackingStatus::kTracking : TrackingStatus::kDegenerate)
+        << i << " " << last.smallest_eigenvalue;
+  }
+  EXPECT_GT(last.guessed_directions, 0);
+  EXPECT_NE(last.reason.find("nothing measures that"), std::string::npos) << last.reason;
+  EXPECT_NE(last.map_doubt.find("nothing measures that"), std::string::npos) << last.map_doubt;
+  expectLost(pipeline.processFrame(frameWithoutDepth()), "");
+  expectLost(pipeline.processFrame(frames[18]), "");
 }
 
 TEST(ReconstructionPipeline, TheSameFramesGiveTheSameBits) {

@@ -1,0 +1,65 @@
+#include "depth_fusion/pipeline/map_watch.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace depth_fusion {
+namespace {
+
+constexpr int kFirstFrames = 30;          // say what is usual, and no more
+constexpr double kMemory_frames = 300.0;  // of what is usual
+constexpr double kShortMemory_frames = 15.0;
+constexpr int kManyFrames = 30;  // that speak against the map until it is doubted
+constexpr int kManyGuesses = 5;  // a fast hand moves by a centimetre or two in each
+constexpr double kMoreContradicted = 0.15;
+constexpr double kWorseMatches = 0.85;
+
+}  // namespace
+
+void MapWatch::Fit::take(const Fit& other, double memory_frames) {
+  contradicted += (other.contradicted - contradicted) / memory_frames;
+  match_quality += (other.match_quality - match_quality) / memory_frames;
+}
+
+void MapWatch::Suspicion::note(double stamp_s, bool speaks_against) {
+  if (frames == 0) since_s = stamp_s;
+  frames = speaks_against ? frames + 1 : 0;
+}
+
+void MapWatch::add(double stamp_s, const TrackingResult& result) {
+  if (!doubt_.empty() || !(result.match_quality > 0.0)) return;
+  watchGuesses(stamp_s, result);
+  watchFit(stamp_s, {1.0 - result.explained / result.match_quality, result.match_quality});
+}
+
+void MapWatch::watchGuesses(double stamp_s, const TrackingResult& result) {
+  guessed_.note(stamp_s, result.guessed_directions > 0);
+  if (guessed_.frames >= kManyGuesses) say(guessed_.since_s, result.reason);
+}
+
+void MapWatch::watchFit(double stamp_s, const Fit& fit) {
+  ++frames_;
+  of_late_.take(fit, std::min<double>(frames_, kShortMemory_frames));
+  const bool misfits =
+      frames_ > kFirstFrames && (of_late_.contradicted > usual_.contradicted + kMoreContradicted ||
+                                 of_late_.match_quality < kWorseMatches * usual_.match_quality);
+  if (!misfits) usual_.take(fit, std::min<double>(frames_, kMemory_frames));
+  misfit_.note(stamp_s, misfits);
+  if (misfit_.frames < kManyFrames) return;
+  char what[200];
+  std::snprintf(
+      what, sizeof(what),
+      "%.0f %% of the points that meet it contradict it, where %.0f %% is usual, and the others fit "
+      "by %.2f, where %.2f is usual",
+      100.0 * of_late_.contradicted, 100.0 * usual_.contradicted, of_late_.match_quality,
+      usual_.match_quality);
+  say(misfit_.since_s, what);
+}
+
+void MapWatch::say(double since_s, const std::string& what) {
+  char since[100];
+  std::snprintf(since, sizeof(since), "the map may be wrong since %.3f s: ", since_s);
+  if (doubt_.empty()) doubt_ = since + what;
+}
+
+}  // namespace depth_fusion
