@@ -6,6 +6,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/depth_range.h"
+#include "pipeline/given_pose.h"
 
 namespace depth_fusion {
 namespace {
@@ -13,25 +14,6 @@ namespace {
 constexpr char kStart[] = "start";
 constexpr char kGuessed[] = "; nothing measures that, and the pose stays where it was expected";
 constexpr int kFramesAtGiven = 10;  // in which the sensor is searched for at a pose that was given
-
-// Poses about one that was given by eye, the pose itself first: aside, ahead and turned.
-std::vector<Pose> aboutGiven(const Pose& T_W_D) {
-  constexpr double kSteps[] = {0.0, -1.0, 1.0};
-  constexpr double kStep_m = 0.3, kStep_rad = 0.25;
-  std::vector<Pose> poses;
-  for (const double aside : kSteps) {
-    for (const double ahead : kSteps) {
-      for (const double turn : kSteps) {
-        Vector6d twist = Vector6d::Zero();
-        twist[1] = turn * kStep_rad;
-        twist[3] = aside * kStep_m;
-        twist[5] = ahead * kStep_m;
-        poses.push_back(T_W_D * poseFromTwist(twist));
-      }
-    }
-  }
-  return poses;
-}
 
 // Whether frames are compensated for the sensor's motion.
 bool bendsFrames(const PreprocessingParameters& parameters) {

@@ -40,7 +40,7 @@ class PostgresServer {
             "there is no user postgres to run the server");
     }
     std::ofstream(folder_ / "password") << kPassword << "\n";
-    run("initdb --no-sync -D '" + folder_ / "data" + "' -U robot --auth=scram-sha-256 --pwfile='" +
+    run("initdb --no-sync --locale=C -D '" + folder_ / "data" + "' -U robot --auth=scram-sha-256 --pwfile='" +
         folder_ / "password" + "'");
     start();
   }
