@@ -76,7 +76,7 @@ TEST_F(Resets, BeginAMapAnewThatNothingFits) {
   loadTracking();
   fuseAll(simulatedFrames(smallRoom(2)));
   const uint32_t before = map_status_.all().back()->generation;
-  const Pose T_W_last = poseOf(poses_.all().back()->pose.pose);
+  const Pose T_W_last = fromMessage(poses_.all().back()->pose.pose);
   SimulationOptions options = smallRoom(30);
   options.scene = "cylinder";
   TrackerStatus::ConstPtr status;
@@ -93,7 +93,7 @@ TEST_F(Resets, BeginAMapAnewThatNothingFits) {
   EXPECT_TRUE(of_map->fused) << of_map->reason;
   EXPECT_NE(of_map->generation, before);
   EXPECT_NE(of_map->reason.find("a map begins anew"), std::string::npos) << of_map->reason;
-  expectPose(poseOf(poses_.awaitStamp(status->header.stamp)->pose.pose), T_W_last, 0.3, 0.3);
+  expectPose(fromMessage(poses_.awaitStamp(status->header.stamp)->pose.pose), T_W_last, 0.3, 0.3);
 }
 
 TEST_F(Resets, RefuseFramesFromBefore) {
