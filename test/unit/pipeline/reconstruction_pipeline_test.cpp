@@ -302,7 +302,7 @@ TEST(ReconstructionPipeline, OnlyTheAnnouncedFrameMayComeNext) {
   ReconstructionPipeline pipeline(compute(), coarseRoomParameters(), kCamera);
   pipeline.processFrame(frames[0], &frames[1]);
   expectError([&] { pipeline.processFrame(frames[2]); }, {"was announced", "came"});
-  expectError([&] { pipeline.processFrame(frames[1], *frames[1].T_W_D); }, {"was announced", "pose"});
+  expectError([&] { pipeline.processFrame(frames[1], *frames[1].T_W_D); }, {"was announced", "has not come"});
   const FrameResult announced = pipeline.processFrame(frames[1]);
   ASSERT_TRUE(isTracking(announced)) << announced.tracking.reason;
   EXPECT_LT((motionTo(1).inverse() * announced.tracking.T_W_D).translation().norm(), 0.015);

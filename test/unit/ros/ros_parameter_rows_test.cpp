@@ -8,6 +8,7 @@
 #include "ros/nodelets/surface_mesh_nodelet_parameters.h"
 #include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
 #include "ros/output/live_surface_parameters.h"
+#include "ros/output/map_keeper_parameters.h"
 #include "ros/output/model_picture_parameters.h"
 #include "ros/output/pose_parameters.h"
 #include "support/parameter_rows.h"
@@ -25,6 +26,7 @@ TEST(ParameterRows, EveryMemberOfTheOutputsHasOne) {
   expectRows<PoseParameters>();
   expectRows<LiveSurfaceParameters>();
   expectRows<ModelPictureParameters>();
+  expectRows<MapKeeperParameters>();
 }
 
 TEST(ParameterRows, EveryMemberOfTheInputsHasOne) {
@@ -38,9 +40,10 @@ TEST(ParameterRows, EveryMemberOfTheInputsHasOne) {
 TEST(ParameterRows, EveryMemberOfTheNodeletsHasOne) {
   // Without the pipeline, the stages of which have tables of their own.
   expectRows<LiveTrackerParameters>(fieldCount<LiveTrackerParameters>() - 1);
-  expectRows<TsdfFusionNodeletParameters>(fieldCount<TsdfFusionNodeletParameters>() - 3 +
+  expectRows<TsdfFusionNodeletParameters>(fieldCount<TsdfFusionNodeletParameters>() - 4 +
                                           fieldCount<TsdfFusionParameters>() + rgbdRows() +
-                                          fieldCount<ModelPictureParameters>());
+                                          fieldCount<ModelPictureParameters>() +
+                                          fieldCount<MapKeeperParameters>());
   expectRows<SurfaceMeshNodeletParameters>(fieldCount<SurfaceMeshNodeletParameters>() - 2 +
                                            fieldCount<SurfaceMeshParameters>() +
                                            fieldCount<LiveSurfaceParameters>());
