@@ -40,10 +40,9 @@ TEST(ParameterRows, EveryMemberOfTheInputsHasOne) {
 TEST(ParameterRows, EveryMemberOfTheNodeletsHasOne) {
   // Without the pipeline, the stages of which have tables of their own.
   expectRows<LiveTrackerParameters>(fieldCount<LiveTrackerParameters>() - 1);
-  expectRows<TsdfFusionNodeletParameters>(fieldCount<TsdfFusionNodeletParameters>() - 4 +
-                                          fieldCount<TsdfFusionParameters>() + rgbdRows() +
-                                          fieldCount<ModelPictureParameters>() +
-                                          fieldCount<MapKeeperParameters>());
+  expectRows<TsdfFusionNodeletParameters>(
+      fieldCount<TsdfFusionNodeletParameters>() - 4 + fieldCount<TsdfFusionParameters>() + rgbdRows() +
+      fieldCount<ModelPictureParameters>() + fieldCount<MapKeeperParameters>());
   expectRows<SurfaceMeshNodeletParameters>(fieldCount<SurfaceMeshNodeletParameters>() - 2 +
                                            fieldCount<SurfaceMeshParameters>() +
                                            fieldCount<LiveSurfaceParameters>());
