@@ -102,8 +102,8 @@ int run(const Arguments& arguments, RunOptions& options) {
     return 0;
   }
   if (!options.continued.empty()) {
-    const auto stored = openDatabase(options.continued, DatabaseAccess::kRead);
-    adoptParameters(describeMap(*stored), options.parameters);
+    options.stored = openDatabase(options.continued, DatabaseAccess::kRead);
+    adoptParameters(describeMap(*options.stored), options.parameters);
     if (options.map.empty()) options.map = options.continued;
   }
   validate(options.parameters.table());

@@ -34,7 +34,7 @@ namespace {
 
 // No surface leaves more directions free than a plane does, or a sphere.
 constexpr int kMostFree = 3;
-// Of the threshold: what geometry says at least, where nothing else says anything.
+// Where nothing else says anything, geometry has to say this part of the threshold at least.
 constexpr double kWeakly = 0.5;
 // What is guessed may be off by a third of a metre, or of a radian.
 constexpr double kGuessInformation = 9.0;

@@ -47,12 +47,13 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
 
 LoadedMap ReconstructionPipeline::load(Database& stored) {
   ahead_.checkNoneAnnounced();
-  checkFilterRule(describeMap(stored), parameters_, stored.name());
-  LoadedMap loaded = loadMap(stored, map_);
-  last_pose_ = loaded.description.last_pose;
-  session_.reset(last_pose_.T_W_D, loaded.keyframes);
+  const ReadMap read(stored, map_);
+  checkFilterRule(read.loaded().description, parameters_, stored.name());
+  read.moveTo(map_);
+  last_pose_ = read.loaded().description.last_pose;
+  session_.reset(last_pose_.T_W_D, read.loaded().keyframes);
   view_ = &mapper_.render(last_pose_.T_W_D, timers_);
-  return loaded;
+  return read.loaded();
 }
 
 SaveReport ReconstructionPipeline::save(MapSaver& saver) {

@@ -1,13 +1,9 @@
 #include "depth_fusion/pipeline/stored_map.h"
 
-#include "depth_fusion/common/error.h"
-
 namespace depth_fusion {
 namespace {
 
-// What a voxel's place and its bytes depend on.
-constexpr char kRule[] = "tsdf_fusion/rule";
-constexpr const char* kFixed[] = {"map/voxel_size_m", "map/block_size", "map/truncation_m", kRule};
+constexpr char kRule[] = "tsdf_fusion/rule";  // a voxel's certainty means something else by another one
 
 }  // namespace
 
@@ -26,14 +22,13 @@ MapDescription descriptionOf(PipelineParameters parameters, const CameraIntrinsi
 }
 
 void adoptParameters(const MapDescription& stored, PipelineParameters& parameters) {
-  for (const char* name : kFixed) setParameter(parameters.table(), name, stored.parameter(name));
+  const ParameterTable table = parameters.table();
+  for (const char* name : kVoxelParameters) setParameter(table, name, stored.parameter(name));
+  setParameter(table, kRule, stored.parameter(kRule));
 }
 
 void checkFilterRule(const MapDescription& stored, PipelineParameters parameters, const std::string& name) {
-  const std::string& theirs = stored.parameter(kRule);
-  const std::string ours = valueText(findParameter(parameters.table(), kRule));
-  check(theirs == ours, name + " was made with " + kRule + " " + theirs + ", and here it is " + ours +
-                            "; set it to " + theirs);
+  checkSameParameter(stored, kRule, parameters.table(), name);
 }
 
 }  // namespace depth_fusion

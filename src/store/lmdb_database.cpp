@@ -132,7 +132,8 @@ bool canBeWritten(const fs::path& path) {
   return access(folder.c_str(), W_OK) == 0 && (!fs::exists(path) || access(path.c_str(), W_OK) == 0);
 }
 
-// Of mdb_env_open. Where no lock file can be made and none is there, nobody else has the file open.
+// Returns flags of mdb_env_open. Where no lock file can be made and none is there, nobody else has the file
+// open.
 unsigned openingFlags(const std::string& path) {
   if (canBeWritten(path)) return 0;
   check(!fs::exists(path + "-lock"),

@@ -9,7 +9,8 @@
 namespace depth_fusion {
 namespace {
 
-// Of address space; the file is as large as its contents. Systems that have little of it get less.
+// A file is given so much address space at most; systems that have little of it give less. The file itself is
+// as large as its contents.
 constexpr size_t kMostBytes = size_t{1} << 36, kLeastBytes = size_t{1} << 30;
 constexpr unsigned kFlags = MDB_NOSUBDIR | MDB_NOTLS;
 

@@ -6,7 +6,7 @@
 namespace depth_fusion {
 namespace {
 
-// The last line of libpq's is a newline's.
+// libpq's messages end with a newline, and may have several lines.
 std::string oneLine(const char* message) {
   std::string line = trimmed(message, " \n");
   for (char& c : line) {
@@ -30,8 +30,7 @@ PostgresPlace parsePostgresPlace(const std::string& location) {
   const std::unique_ptr<PQconninfoOption, FreeOptions> options(PQconninfoParse(place.uri.c_str(), nullptr));
   check(options != nullptr && place.map.find('@') == std::string::npos,
         "the address of the database server is none; it is postgresql://USER@HOST/DATABASE#MAP, and in a "
-        "password "
-        "%, @, /, : and # are written %25, %40, %2F, %3A and %23");
+        "password %, @, /, : and # are written %25, %40, %2F, %3A and %23");
   const auto valueOf = [&](const std::string& keyword) -> std::string {
     for (const PQconninfoOption* option = options.get(); option->keyword != nullptr; ++option) {
       if (option->keyword == keyword && option->val != nullptr) return option->val;

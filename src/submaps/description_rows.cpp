@@ -38,6 +38,14 @@ const std::string& MapDescription::parameter(const std::string& name) const {
   throw Error("the map says nothing of " + name);
 }
 
+void checkSameParameter(const MapDescription& stored, const std::string& parameter,
+                        const ParameterTable& present, const std::string& name) {
+  const std::string& theirs = stored.parameter(parameter);
+  const std::string ours = valueText(findParameter(present, parameter));
+  check(theirs == ours, name + " was made with " + parameter + " " + theirs + ", and this map has " + ours +
+                            "; set it to " + theirs);
+}
+
 std::string descriptionRow(const MapDescription& description) {
   ByteWriter bytes;
   bytes.text(kMagic);

@@ -17,19 +17,6 @@ std::string rowName(const Database& database, const std::string& key) {
   return database.name() + ", row " + readable(key) + ",";
 }
 
-// The voxels of the two maps are the same places, and mean the same.
-void checkFits(const MapDescription& stored, const BlockMap& map, const std::string& name) {
-  MapParameters parameters = map.parameters();
-  for (const Parameter& row : parameters.table()) {
-    const bool must_agree =
-        row.name == "voxel_size_m" || row.name == "block_size" || row.name == "truncation_m";
-    if (!must_agree) continue;
-    const std::string& theirs = stored.parameter("map/" + row.name);
-    check(theirs == valueText(row), name + " was made with map/" + row.name + " " + theirs +
-                                        ", and this map has " + valueText(row) + "; set it to " + theirs);
-  }
-}
-
 // The window that the map had, or one of another size about the same blocks.
 Window windowFor(const SubmapDescription& submap, const BlockMap& map) {
   const int n = map.parameters().blocks_per_axis;
@@ -63,7 +50,9 @@ ReadMap::ReadMap(Database& database, const BlockMap& map) {
   const MapDescription& stored = loaded_.description;
   const std::string name = database.name();
   check(!stored.submaps.empty(), name + " is damaged: it has no submap");
-  checkFits(stored, map, name);
+  MapParameters parameters = map.parameters();
+  for (const char* parameter : kVoxelParameters)
+    checkSameParameter(stored, parameter, withPrefix("map", parameters.table()), name);
   const SubmapDescription& submap = stored.submaps.front();
   window_ = windowFor(submap, map);
   for (const LayerRow& row : layersOf(map.parameters())) {
@@ -116,12 +105,6 @@ void ReadMap::moveTo(BlockMap& map) const {
              {reinterpret_cast<const char*>(states.data()), states.size() * sizeof(int)}, sizeof(int));
   for (const Layer& layer : layers_)
     writeSlots(map.layer(layer.row.name), slots, layer.voxels, layer.row.bytesPerBlock(block_size));
-}
-
-LoadedMap loadMap(Database& database, BlockMap& map) {
-  const ReadMap read(database, map);
-  read.moveTo(map);
-  return read.loaded();
 }
 
 }  // namespace depth_fusion

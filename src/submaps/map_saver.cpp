@@ -27,6 +27,12 @@ double unixTime_s() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
+std::vector<std::string> namesOf(const std::vector<LayerRow>& layers) {
+  std::vector<std::string> names;
+  for (const LayerRow& layer : layers) names.push_back(layer.name);
+  return names;
+}
+
 // Removes whatever map is stored. Throws Error if it is no map.
 void removeMap(DatabaseWriter& writer, const std::string& name) {
   bool is_empty = true;
@@ -71,11 +77,10 @@ void MapSaver::copyBlocks(BlockMap& map) {
     slots.push_back(slot);
   }
   capture.states = readSlots(map.blockStates(), slots, sizeof(int));
-  for (const LayerRow& layer : capture.layers) {
-    capture.description.layers.push_back(layer.name);
+  capture.description.layers = namesOf(capture.layers);
+  for (const LayerRow& layer : capture.layers)
     capture.voxels.push_back(
         readSlots(map.layer(layer.name), slots, layer.bytesPerBlock(capture.block_size)));
-  }
 }
 
 bool MapSaver::isWritten(DatabaseReader& stored) const {
@@ -86,12 +91,10 @@ bool MapSaver::isWritten(DatabaseReader& stored) const {
 }
 
 void MapSaver::adopt(BlockMap& map, const LoadedMap& stored) {
-  std::vector<std::string> layers;
-  for (const LayerRow& layer : layersOf(map.parameters())) layers.push_back(layer.name);
   changes_ = map.follow();
   changes_->take();
   generation_ = map.generation();
-  everything_changed_ = layers != stored.description.layers;
+  everything_changed_ = namesOf(layersOf(map.parameters())) != stored.description.layers;
   changed_groups_.clear();
   id_ = stored.description.id;
   revision_ = stored.description.revision;

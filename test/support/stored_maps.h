@@ -13,7 +13,7 @@ inline SignedDistance sphere(const Eigen::Vector3d& centre, double radius) {
   return [=](const Eigen::Vector3d& p) { return (p - centre).norm() - radius; };
 }
 
-// Of voxels of 1 cm.
+// Its voxels are 1 cm.
 inline MapParameters smallMap() {
   MapParameters parameters;
   parameters.voxel_size_m = 0.01f;
@@ -45,6 +45,13 @@ inline SaveReport save(MapSaver& saver, BlockMap& map, const Keyframes& keyframe
   saver.prepare();
   saver.capture(map, describing(map), keyframes);
   return saver.write();
+}
+
+// Fills the map with the stored one. Throws Error as ReadMap does: the map is then as it was.
+inline LoadedMap loadMap(Database& database, BlockMap& map) {
+  const ReadMap read(database, map);
+  read.moveTo(map);
+  return read.loaded();
 }
 
 inline LoadedMap load(const std::string& location, BlockMap& map) {

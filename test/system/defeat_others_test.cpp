@@ -84,6 +84,12 @@ Outcome track(Recording& recording, const PipelineParameters& parameters = {}) {
   return outcome;
 }
 
+// No frame is lost, and none that is called tracking is wrong.
+void expectFollowed(const Outcome& outcome) {
+  EXPECT_TRUE(outcome.wrong.empty());
+  EXPECT_TRUE(outcome.lost.empty());
+}
+
 SimulationOptions scene(const std::string& name, int frames) {
   SimulationOptions options;
   options.scene = name;
@@ -106,8 +112,7 @@ Outcome trackScene(const SimulationOptions& options, const PipelineParameters& p
 
 TEST(DefeatsOthers, LampsShelvesAndTilesThatAreAlike) {
   const Outcome outcome = trackScene(scene("alike", 100));
-  EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_TRUE(outcome.lost.empty());
+  expectFollowed(outcome);
 }
 
 TEST(DefeatsOthers, SomebodyWhoFillsTheView) {
@@ -126,20 +131,17 @@ TEST(DefeatsOthers, AHandOverTheLens) {
 
 TEST(DefeatsOthers, ThingsThatTurnOnATable) {
   const Outcome outcome = trackScene(scene("turntable", 80));
-  EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_TRUE(outcome.lost.empty());
+  expectFollowed(outcome);
 }
 
 TEST(DefeatsOthers, AMirror) {
   const Outcome outcome = trackScene(scene("mirror", 110));
-  EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_TRUE(outcome.lost.empty());
+  expectFollowed(outcome);
 }
 
 TEST(DefeatsOthers, AGlassWall) {
   const Outcome outcome = trackScene(scene("glass", 80));
-  EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_TRUE(outcome.lost.empty());
+  expectFollowed(outcome);
 }
 
 TEST(DefeatsOthers, LightSwitchedOff) {
@@ -147,8 +149,7 @@ TEST(DefeatsOthers, LightSwitchedOff) {
   options.lifelike = true;
   const auto recording = lightsOff(std::make_unique<SimulatedRecording>(options), 30, 30);
   const Outcome outcome = track(*recording, rollingShutter());
-  EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_TRUE(outcome.lost.empty());
+  expectFollowed(outcome);
 }
 
 // A first frame that has depth in a few pixels only makes a map that nothing fits (docs/tracking.md).
@@ -161,14 +162,12 @@ TEST(DefeatsOthers, AStartBeforeAWall) {
   SimulatedRecording recording(scene("backing", 120));
   for (int i = 0; i < 15; ++i) recording.next();  // until it is in range
   const Outcome outcome = track(recording);
-  EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_TRUE(outcome.lost.empty());
+  expectFollowed(outcome);
 }
 
 TEST(DefeatsOthers, FastShakes) {
   const Outcome outcome = trackScene(scene("shaken", 120), rollingShutter());
-  EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_TRUE(outcome.lost.empty());
+  expectFollowed(outcome);
 }
 
 // The mean distance of the surface after so many frames from one place.
@@ -202,8 +201,7 @@ TEST(DefeatsOthers, IrregularFrames) {
   options.lifelike = true;
   const auto recording = irregular(std::make_unique<SimulatedRecording>(options), 6, 1);
   const Outcome outcome = track(*recording, rollingShutter());
-  EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_TRUE(outcome.lost.empty());
+  expectFollowed(outcome);
 }
 
 TEST(DefeatsOthers, TenHertz) {
@@ -211,8 +209,7 @@ TEST(DefeatsOthers, TenHertz) {
   options.lifelike = true;
   options.fps = 10.0;
   const Outcome outcome = trackScene(options, rollingShutter());
-  EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_TRUE(outcome.lost.empty());
+  expectFollowed(outcome);
 }
 
 TEST(DefeatsOthers, LargeImages) {
@@ -221,8 +218,7 @@ TEST(DefeatsOthers, LargeImages) {
   options.fps = 15.0;
   options.intrinsics = {1280, 720, 920.0, 920.0, 639.5, 359.5};
   const Outcome outcome = trackScene(options, rollingShutter());
-  EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_TRUE(outcome.lost.empty());
+  expectFollowed(outcome);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ inline std::string colorProblem(const RgbdFrame& frame) {
          "; give the colour camera's own intrinsics, or colour of that size";
 }
 
-// The same; empty, too, where the recording has no colour for the frame.
+// What colorProblem() says; empty, too, where the recording has no colour for the frame.
 inline std::string presentColorProblem(const RgbdFrame& frame) {
   return frame.color.empty() && frame.color_problem.empty() ? "" : colorProblem(frame);
 }

@@ -25,7 +25,7 @@ struct TrackingResult {
   // of the number of directions that depth constrains); 0 for a prior without a covariance.
   double prior_sigmas = 0.0;
   std::string dropped_prior;  // the origin of a measured prior that depth contradicts; prior_sigmas is its
-  // So many free directions were not measured by anything: along them the pose is where it was expected.
+  // The number of free directions that nothing measured: along them the pose is where it was expected.
   int guessed_directions = 0;
   std::string map_doubt;  // why the map may be wrong, and since when; empty if nothing speaks for it
   int inliers = 0;

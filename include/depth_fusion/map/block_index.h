@@ -14,7 +14,7 @@ inline bool before(const BlockIndex& a, const BlockIndex& b) {
   return std::make_tuple(a.z(), a.y(), a.x()) < std::make_tuple(b.z(), b.y(), b.x());
 }
 
-// The same order, for containers.
+// Containers are ordered by it in the same way.
 struct BlockOrder {
   bool operator()(const BlockIndex& a, const BlockIndex& b) const { return before(a, b); }
 };

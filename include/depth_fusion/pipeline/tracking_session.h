@@ -93,7 +93,7 @@ class TrackingSession {
   // sensor is. Returns `lost` if nothing fits.
   TrackingResult relocalise(const MotionPrior& prior, const FrameFeatures& features,
                             const TrackingResult& lost, StageTimers& timers);
-  // The same about the pose that was given, for some frames.
+  // Searches for the sensor about the pose that was given, for some frames.
   TrackingResult searchAtGiven(StageTimers& timers);
   TrackingResult trackFrom(const MotionPrior& prior, StageTimers& timers);
   // The result, or that the frame is lost if too little of it fits the map.

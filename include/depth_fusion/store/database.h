@@ -60,7 +60,7 @@ bool isOnServer(const std::string& location);
 // is none or is damaged, and for a server that does not answer.
 std::unique_ptr<Database> openDatabase(const std::string& location, DatabaseAccess access);
 
-// The same, to be read; null if there is none. Makes nothing.
+// Opens the database there to be read; null if there is none. Makes nothing.
 std::unique_ptr<Database> openIfThere(const std::string& location);
 
 // The place for messages: without a password. Throws Error for an address that is none.

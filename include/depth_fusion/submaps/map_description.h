@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "depth_fusion/common/parameters.h"
 #include "depth_fusion/geometry/camera_intrinsics.h"
 #include "depth_fusion/geometry/pose.h"
 #include "depth_fusion/map/window.h"
@@ -18,6 +19,9 @@ struct SubmapDescription {
   Window window;
   uint64_t blocks = 0;
 };
+
+// The parameters that say where a map's voxels are, and what their distances mean.
+constexpr const char* kVoxelParameters[] = {"map/voxel_size_m", "map/block_size", "map/truncation_m"};
 
 struct MapDescription {
   uint64_t id = 0;          // a random number, made with the map
@@ -34,5 +38,10 @@ struct MapDescription {
   // A parameter's value as text. Throws Error for one that is not there.
   const std::string& parameter(const std::string& name) const;
 };
+
+// Throws Error if the parameter, of which `present` has the row, has another value than the stored map was
+// made with; `name` is the map's.
+void checkSameParameter(const MapDescription& stored, const std::string& parameter,
+                        const ParameterTable& present, const std::string& name);
 
 }  // namespace depth_fusion

@@ -124,7 +124,4 @@ class ReadMap {
   std::vector<Layer> layers_;  // those that both maps have, the TSDF first
 };
 
-// Fills the map with the one at that place. Throws Error as ReadMap does: the map is then as it was.
-LoadedMap loadMap(Database& database, BlockMap& map);
-
 }  // namespace depth_fusion

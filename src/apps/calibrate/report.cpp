@@ -1,9 +1,8 @@
 #include "apps/calibrate/report.h"
 
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "common/io/formatted_line.h"
 #include "common/io/image_file.h"
 #include "common/io/text_file.h"
 #include "tools/plots/calibration_picture.h"
@@ -12,15 +11,6 @@ namespace depth_fusion {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-__attribute__((format(printf, 1, 2))) std::string line(const char* format, ...) {
-  char text[500];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof(text), format, arguments);
-  va_end(arguments);
-  return std::string(text) + "\n";
-}
 
 std::string timeText(const CalibrationReport& report) {
   const TimeOffset& color = report.color;

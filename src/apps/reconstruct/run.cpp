@@ -142,16 +142,15 @@ void Run::buildPipeline(const CameraIntrinsics& camera) {
     checkPlace(options_.map);
     saver_ = std::make_unique<MapSaver>(options_.map);
   }
-  if (!options_.continued.empty()) loadMap();
+  if (options_.stored != nullptr) loadMap();
 }
 
 void Run::loadMap() {
-  const std::unique_ptr<Database> stored = openDatabase(options_.continued, DatabaseAccess::kRead);
-  const LoadedMap loaded = pipeline_->load(*stored);
+  const LoadedMap loaded = pipeline_->load(*options_.stored);
   if (options_.map == options_.continued) saver_->adopt(pipeline_->map(), loaded);
   is_searched_for_ = true;
   std::cout << "map: " << pipeline_->map().usage().blocks << " blocks and " << loaded.keyframes.size()
-            << " keyframes of " << stored->name() << std::endl;
+            << " keyframes of " << options_.stored->name() << std::endl;
 }
 
 void Run::saveMap() {

@@ -1,6 +1,7 @@
 // What `reconstruct` does once its options are known.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@ struct RunOptions {
   std::string output;
   std::string trajectory_file;
   std::string device;
-  std::string map;        // where the map is saved in the end; empty: nowhere
-  std::string continued;  // a map to go on with; empty: none
-  size_t max_frames = 0;  // 0 = all
+  std::string map;                   // where the map is saved in the end; empty: nowhere
+  std::string continued;             // a map to go on with; empty: none
+  std::shared_ptr<Database> stored;  // that map, open
+  size_t max_frames = 0;             // 0 = all
   bool no_mesh = false;
   bool self_calibrate = false;  // from the recording, before it is fused
   RecordingOptions recording;

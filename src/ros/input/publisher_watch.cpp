@@ -8,7 +8,7 @@ namespace {
 constexpr double kSilence_s = 1.0;
 // Larger steps are none of messages that were dropped, but of a publisher that numbers by rules of its own.
 constexpr uint32_t kMaxMissed = 1000;
-// Of so many steps most decide what is usual.
+// The majority of this many steps decides what is usual.
 constexpr int kManySteps = 10;
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace depth_fusion {
 
-// Not thread-safe.
+// One thread uses it.
 class SaidOnce {
  public:
   // Whether the text is one to say now: it is not empty, and not among those that were said of late.

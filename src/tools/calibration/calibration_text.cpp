@@ -1,20 +1,10 @@
-#include <cstdarg>
-#include <cstdio>
 
+#include "common/io/formatted_line.h"
 #include "tools/calibration/calibration_parts.h"
 #include "tools/calibration/self_calibration.h"
 
 namespace depth_fusion {
 namespace {
-
-__attribute__((format(printf, 1, 2))) std::string line(const char* format, ...) {
-  char text[500];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof(text), format, arguments);
-  va_end(arguments);
-  return std::string(text) + "\n";
-}
 
 std::string offsetsText(const DepthCalibration& depth) {
   double least = 0.0, largest = 0.0;
