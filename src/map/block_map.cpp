@@ -11,7 +11,8 @@
 namespace depth_fusion {
 namespace {
 
-constexpr size_t kTransferBlocks = 16384;  // blocks that one upload of requests names
+constexpr size_t kTransferBlocks = 16384;              // blocks that one upload of requests names
+constexpr size_t kBlockTransferBytes = size_t{4} << 20;  // of blocks that are copied at a time
 
 size_t cube(int n) { return static_cast<size_t>(n) * static_cast<size_t>(n) * static_cast<size_t>(n); }
 
@@ -111,16 +112,30 @@ void BlockMap::place(const Window& window) {
   offsets_.fill(BLOCK_EMPTY, offsets_.bytes());
 }
 
+void BlockMap::moveWindow(const BlockIndex& origin) {
+  const Window moved{origin, parameters_.blocks_per_axis};
+  for (int slot = 0; slot < slots_.bound(); ++slot)
+    check(!slots_.inUse(slot) || moved.contains(slots_.blockOf(slot)), "the window leaves blocks behind");
+  window_ = moved;
+}
+
 size_t BlockMap::allocate(const std::vector<BlockIndex>& blocks) {
-  const std::vector<int> slots = slots_.take(blocks);
-  enter(blocks, slots);
-  return slots.size();
+  std::vector<BlockIndex> missing = blocks;
+  const std::vector<BlockIndex> unmet =
+      bring_back_ ? bring_back_(missing) : std::vector<BlockIndex>();
+  const std::vector<int> slots = slots_.take(missing);
+  const size_t met = blocks.size() - missing.size() - unmet.size() + slots.size();
+  missing.insert(missing.end(), unmet.begin(), unmet.end());
+  enter(missing, slots);
+  changes_.noteUpdated(slots);
+  return met;
 }
 
 std::vector<int> BlockMap::insert(const std::vector<BlockIndex>& blocks) {
   check(blocks.size() <= slots_.free(), "the pool is full: raise map/pool_mib");
   std::vector<int> slots = slots_.take(blocks);
   enter(blocks, slots);
+  changes_.noteReturned(slots);
   return slots;
 }
 
@@ -140,12 +155,30 @@ void BlockMap::enter(const std::vector<BlockIndex>& blocks, const std::vector<in
     }
     begin = end;
   }
-  changes_.noteUpdated(slots);
 }
 
 void BlockMap::release(const std::vector<int>& slots) {
   slots_.release(slots);
   changes_.noteReleased(slots);
+}
+
+void BlockMap::remove(const std::vector<int>& slots) {
+  takeOut(slots);
+  changes_.noteReleased(slots);
+}
+
+void BlockMap::evict(const std::vector<int>& slots) {
+  takeOut(slots);
+  changes_.noteEvicted(slots);
+}
+
+void BlockMap::takeOut(const std::vector<int>& slots) {
+  for (size_t begin = 0; begin < slots.size(); begin += kTransferBlocks) {
+    const size_t count = std::min(kTransferBlocks, slots.size() - begin);
+    slot_transfer_.write(slots.data() + begin, count * sizeof(int));
+    kernels_->removeBlocks(*this, slot_transfer_, static_cast<int>(count));
+  }
+  slots_.release(slots);
 }
 
 std::unique_ptr<BlockMap> BlockMap::snapshot(const std::vector<std::string>& names) const {
@@ -176,11 +209,57 @@ bool BlockMap::hasLayer(const std::string& name) const {
   return std::any_of(layers_.begin(), layers_.end(), [&](const auto& layer) { return layer.name() == name; });
 }
 
-DeviceBuffer& BlockMap::layer(const std::string& name) {
+BlockLayer& BlockMap::layerNamed(const std::string& name) {
   const auto found = std::find_if(layers_.begin(), layers_.end(),
                                   [&](const BlockLayer& layer) { return layer.name() == name; });
   check(found != layers_.end(), "the map has no layer " + name);
-  return found->buffer();
+  return *found;
+}
+
+DeviceBuffer& BlockMap::layer(const std::string& name) { return layerNamed(name).buffer(); }
+
+template <class Function>
+void BlockMap::forEachTransfer(const std::string& name, const std::vector<int>& slots,
+                               const Function& function) {
+  if (block_transfer_.bytes() == 0)
+    block_transfer_ = DeviceBuffer(compute_, kBlockTransferBytes, "blocks that come or go");
+  BlockLayer& layer = layerNamed(name);
+  const size_t bytes = layer.row().bytesPerBlock(parameters_.block_size);
+  const size_t blocks = std::min(kBlockTransferBytes / bytes, kTransferBlocks);
+  for (size_t begin = 0; begin < slots.size(); begin += blocks) {
+    const size_t count = std::min(blocks, slots.size() - begin);
+    slot_transfer_.write(slots.data() + begin, count * sizeof(int));
+    function(layer, static_cast<int>(count), begin * bytes, count * bytes);
+  }
+}
+
+std::string BlockMap::voxels(const std::string& name, const std::vector<int>& slots) {
+  std::string voxels(slots.size() * layerNamed(name).row().bytesPerBlock(parameters_.block_size), '\0');
+  forEachTransfer(name, slots, [&](BlockLayer& layer, int count, size_t begin, size_t bytes) {
+    kernels_->gatherSlots(layer, block_transfer_, slot_transfer_, count);
+    block_transfer_.read(&voxels[begin], bytes);
+  });
+  return voxels;
+}
+
+void BlockMap::setVoxels(const std::string& name, const std::vector<int>& slots, const std::string& voxels) {
+  forEachTransfer(name, slots, [&](BlockLayer& layer, int count, size_t begin, size_t bytes) {
+    block_transfer_.write(&voxels[begin], bytes);
+    kernels_->scatterSlots(layer, block_transfer_, slot_transfer_, count);
+  });
+}
+
+std::vector<int> BlockMap::states(const std::vector<int>& slots) const {
+  const std::vector<int> all = block_states_.read<int>(static_cast<size_t>(slots_.bound()));
+  std::vector<int> states;
+  for (const int slot : slots) states.push_back(all[static_cast<size_t>(slot)]);
+  return states;
+}
+
+void BlockMap::setStates(const std::vector<int>& slots, const std::vector<int>& states) {
+  std::vector<int> all = block_states_.read<int>(static_cast<size_t>(slots_.bound()));
+  for (size_t i = 0; i < slots.size(); ++i) all[static_cast<size_t>(slots[i])] = states[i];
+  block_states_.write(all);
 }
 
 BlockMap::Usage BlockMap::usage() const {

@@ -20,9 +20,9 @@ MapChanges MapSubscription::take() {
   return log_->changesSince(step);
 }
 
-ChangeLog::ChangeLog(const SlotTable& slots, size_t max_released)
+ChangeLog::ChangeLog(const SlotTable& slots, size_t max_departed)
     : slots_(slots),
-      max_released_(max_released),
+      max_departed_(max_departed),
       generation_(newGeneration()),
       followers_(std::make_shared<int>()) {}
 
@@ -32,7 +32,7 @@ bool ChangeLog::beginStep() {
   ++step_;
   if (isFollowed()) return true;
   // The next follower is told of everything all the same.
-  released_.clear();
+  departed_.clear();
   return false;
 }
 
@@ -44,22 +44,45 @@ void ChangeLog::noteUpdated(const std::vector<int>& slots) {
   }
 }
 
-void ChangeLog::noteReleased(const std::vector<int>& slots) {
+void ChangeLog::noteReleased(const std::vector<int>& slots) { noteDeparted(slots, false); }
+
+void ChangeLog::noteEvicted(const std::vector<int>& slots) { noteDeparted(slots, true); }
+
+void ChangeLog::noteDeparted(const std::vector<int>& slots, bool evicted) {
   if (!beginStep()) return;
-  for (const int slot : slots) released_.push_back({step_, slots_.blockOf(slot)});
-  while (released_.size() > max_released_) forgetOldest();
+  for (const int slot : slots) noteDeparture({step_, slots_.blockOf(slot), evicted, updatedAt(slot)});
+}
+
+void ChangeLog::noteChangedElsewhere(const std::vector<BlockIndex>& blocks) {
+  if (!beginStep()) return;
+  for (const BlockIndex& block : blocks) noteDeparture({step_, block, true, step_});
+}
+
+void ChangeLog::noteDeparture(const Departure& departure) {
+  departed_.push_back(departure);
+  while (departed_.size() > max_departed_) forgetOldest();
+}
+
+void ChangeLog::noteReturned(const std::vector<int>& slots) {
+  for (const int slot : slots) {
+    if (static_cast<size_t>(slot) < updated_at_.size()) updated_at_[static_cast<size_t>(slot)] = 0;
+  }
+}
+
+uint64_t ChangeLog::updatedAt(int slot) const {
+  return static_cast<size_t>(slot) < updated_at_.size() ? updated_at_[static_cast<size_t>(slot)] : 0;
 }
 
 void ChangeLog::forgetOldest() {
-  complete_from_ = released_.front().step;
-  released_.pop_front();
+  complete_from_ = departed_.front().step;
+  departed_.pop_front();
 }
 
 void ChangeLog::noteReset() {
   generation_ = newGeneration();
   complete_from_ = ++step_;
   updated_at_.clear();
-  released_.clear();
+  departed_.clear();
 }
 
 MapChanges ChangeLog::changesSince(uint64_t step) const {
@@ -69,18 +92,21 @@ MapChanges ChangeLog::changesSince(uint64_t step) const {
   if (step == step_) return changes;
   std::vector<std::pair<uint64_t, int>> updated;
   for (int slot = 0; slot < slots_.bound(); ++slot) {
-    const size_t number = static_cast<size_t>(slot);
-    const uint64_t at = number < updated_at_.size() ? updated_at_[number] : 0;
+    const uint64_t at = updatedAt(slot);
     if (slots_.inUse(slot) && (changes.complete || at > step)) updated.emplace_back(at, slot);
   }
   std::sort(updated.begin(), updated.end());
   for (const auto& entry : updated) changes.updated.push_back(slots_.blockOf(entry.second));
   if (changes.complete) return changes;
-  std::set<BlockIndex, BlockOrder> released;
-  for (auto entry = released_.rbegin(); entry != released_.rend() && entry->step > step; ++entry)
-    released.insert(entry->block);
-  for (const BlockIndex& block : changes.updated) released.erase(block);
+  // Of a block that has come and gone again, the last of it counts.
+  std::set<BlockIndex, BlockOrder> told(changes.updated.begin(), changes.updated.end());
+  std::set<BlockIndex, BlockOrder> released, evicted;
+  for (auto entry = departed_.rbegin(); entry != departed_.rend() && entry->step > step; ++entry) {
+    if (entry->evicted && entry->updated_at <= step) continue;
+    if (told.insert(entry->block).second) (entry->evicted ? evicted : released).insert(entry->block);
+  }
   changes.released.assign(released.begin(), released.end());
+  changes.evicted.assign(evicted.begin(), evicted.end());
   return changes;
 }
 

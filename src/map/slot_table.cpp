@@ -33,10 +33,10 @@ std::vector<int> SlotTable::take(const std::vector<BlockIndex>& blocks) {
 }
 
 void SlotTable::release(const std::vector<int>& slots) {
-  for (const int slot : slots) {
-    check(slot >= 0 && slot < bound() && inUse(slot), "the map releases a block that is not in use");
-    entries_[static_cast<size_t>(slot)].in_use = false;
-    free_.push_back(slot);
+  for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot) {
+    check(*slot >= 0 && *slot < bound() && inUse(*slot), "the map releases a block that is not in use");
+    entries_[static_cast<size_t>(*slot)].in_use = false;
+    free_.push_back(*slot);
   }
   updateGroupBoxes(slots);
 }

@@ -58,7 +58,7 @@ std::vector<int> MeshRenderer::listBlocks(const ModelView& view, const Range& ra
   const std::vector<int> slots = listed_.read<int>(count_.read<int>(1).front());
   std::vector<std::pair<uint64_t, int>> ordered;
   for (const int slot : slots)
-    ordered.emplace_back(meshBlock(map_, map_.slots().blockOf(slot)).morton_code, slot);
+    ordered.emplace_back(meshBlock(map_.window().origin, map_.slots().blockOf(slot)).morton_code, slot);
   std::sort(ordered.begin(), ordered.end());
   std::vector<int> result;
   for (const auto& [morton_code, slot] : ordered) result.push_back(slot);

@@ -1,13 +1,28 @@
 #include "depth_fusion/pipeline/mapper.h"
 
+#include <algorithm>
+
 #include "depth_fusion/preprocessing/depth_range.h"
 
 namespace depth_fusion {
+namespace {
 
-Mapper::Mapper(ComputeContext& compute, BlockMap& map, const PipelineParameters& parameters,
-               const CameraIntrinsics& camera)
+constexpr double kBeyond_m = 0.5;  // that the next view may show behind what was measured last
+
+double farthest_m(const DepthFrame& depth) {
+  const std::vector<float> tiles = depth.max_tiles.read<float>(depth.max_tiles.bytes() / sizeof(float));
+  return tiles.empty() ? 0.0 : static_cast<double>(*std::max_element(tiles.begin(), tiles.end()));
+}
+
+}  // namespace
+
+Mapper::Mapper(ComputeContext& compute, BlockMap& map, SubmapCollection& submaps,
+               const PipelineParameters& parameters, const CameraIntrinsics& camera)
     : parameters_(parameters),
       map_(map),
+      submaps_(submaps),
+      camera_(camera),
+      view_range_m_(parameters_.depthRange().max_m),
       fusion_(compute, map, parameters.tsdf_fusion),
       color_fusion_(ColorFusion::create(compute, map, parameters.color_fusion)),
       renderer_(compute, map, camera, parameters.model_view) {}
@@ -19,9 +34,13 @@ void Mapper::setParameters(const PipelineParameters& parameters) {
 }
 
 MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D,
-                           StageTimers& timers) {
+                           bool is_given, StageTimers& timers) {
   MappingResult result;
-  if (map_.slots().used() == 0) map_.placeWindow(windowCentre(frame, parameters_.depthRange(), T_W_D));
+  if (map_.slots().used() == 0 && submaps_.blockCount() == 0)
+    map_.placeWindow(windowCentre(frame, parameters_.depthRange(), T_W_D));
+  submaps_.enter(T_W_D, is_given);
+  view_range_m_ = farthest_m(depth) + kBeyond_m;
+  show(T_W_D, timers);
   result.fusion = fusion_.integrate(depth, T_W_D, timers);
   if (color_fusion_) {
     result.color = color_fusion_->integrate(frame, depth, T_W_D, fusion_.visibleBlocks(),
@@ -32,8 +51,14 @@ MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, cons
 }
 
 const ModelView& Mapper::render(const Pose& T_W_D, StageTimers& timers) {
+  show(T_W_D, timers);
   const DepthRange range = parameters_.depthRange();
   return renderer_.render(T_W_D, range.min_m, range.max_m, timers);
+}
+
+void Mapper::show(const Pose& T_W_D, StageTimers& timers) {
+  const StageTimers::Scope timer(timers, "submaps/show");
+  submaps_.show(camera_, T_W_D, view_range_m_);
 }
 
 std::string leftOutReason(const MappingResult& result) {

@@ -4,7 +4,8 @@ namespace depth_fusion {
 
 ParameterTable PipelineParameters::table() {
   return joined(
-      {withPrefix("map", map.table()), withPrefix("registration", registration.table()),
+      {withPrefix("map", map.table()), withPrefix("submaps", submaps.table()),
+       withPrefix("registration", registration.table()),
        withPrefix("depth_sensor", depth_sensor.table()), withPrefix("preprocessing", preprocessing.table()),
        withPrefix("texture_odometry", texture_odometry.table()),
        withPrefix("icp_tracking", icp_tracking.table()), withPrefix("relocalisation", relocalisation.table()),

@@ -11,8 +11,9 @@ ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const Pi
     : parameters_(parameters),
       camera_(camera),
       map_(compute, parameters.map),
+      submaps_(map_, parameters.submaps),
       odometry_(parameters.texture_odometry, parameters.depth_sensor),
-      mapper_(compute, map_, parameters, camera),
+      mapper_(compute, map_, submaps_, parameters, camera),
       tracking_queue_(compute.anotherQueue()),
       session_(*tracking_queue_, parameters, camera,
                [this](const Pose& T_W_D) -> const ModelView& { return mapper_.render(T_W_D, timers_); }),
@@ -41,15 +42,15 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   session_.follow(frame, T_W_D, timers_);
   result.tracking.status = TrackingStatus::kTracking;
   result.tracking.T_W_D = T_W_D;
-  fuse(frame, result);
+  fuse(frame, result, true);
   return result;
 }
 
 LoadedMap ReconstructionPipeline::load(Database& stored) {
   ahead_.checkNoneAnnounced();
-  const ReadMap read(stored, map_);
+  ReadMap read(stored, submaps_);
   checkFilterRule(read.loaded().description, parameters_, stored.name());
-  read.moveTo(map_);
+  read.moveTo(submaps_);
   last_pose_ = read.loaded().description.last_pose;
   session_.reset(last_pose_.T_W_D, read.loaded().keyframes);
   view_ = &mapper_.render(last_pose_.T_W_D, timers_);
@@ -58,7 +59,7 @@ LoadedMap ReconstructionPipeline::load(Database& stored) {
 
 SaveReport ReconstructionPipeline::save(MapSaver& saver) {
   saver.prepare();
-  saver.capture(map_, descriptionOf(parameters_, camera_, last_pose_), session_.keyframes());
+  saver.capture(submaps_, descriptionOf(parameters_, camera_, last_pose_), session_.keyframes());
   return saver.write();
 }
 
@@ -79,9 +80,10 @@ void ReconstructionPipeline::fuseAndRender(const RgbdFrame& frame, FrameResult& 
   }
 }
 
-void ReconstructionPipeline::fuse(const RgbdFrame& frame, FrameResult& result) {
+void ReconstructionPipeline::fuse(const RgbdFrame& frame, FrameResult& result, bool is_given) {
   if (result.tracking.status == TrackingStatus::kLost) return;
-  const MappingResult mapping = mapper_.fuse(frame, *session_.depth(), result.tracking.T_W_D, timers_);
+  const MappingResult mapping =
+      mapper_.fuse(frame, *session_.depth(), result.tracking.T_W_D, is_given, timers_);
   result.fusion = mapping.fusion;
   result.color = mapping.color;
   if (mapping.fusion.fused()) {

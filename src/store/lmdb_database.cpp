@@ -3,6 +3,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -104,6 +107,29 @@ bool isThere(const LmdbFile& file) {
          there.st_dev == open.st_dev && there.st_ino == open.st_ino;
 }
 
+uint64_t fileBytes(const LmdbFile& file) {
+  struct stat open {};
+  int descriptor = -1;
+  checkLmdb(mdb_env_get_fd(file.environment.get(), &descriptor), file.path, "cannot be looked at");
+  check(fstat(descriptor, &open) == 0, file.path + " cannot be looked at");
+  return static_cast<uint64_t>(open.st_size);
+}
+
+// The file and its lock file.
+void removeFiles(const std::string& path) {
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  fs::remove(path + "-lock", ignored);
+}
+
+// The database of all the rows. The flags are of the transaction that opens it.
+MDB_dbi openRows(const LmdbFile& file, unsigned flags) {
+  const LmdbTransaction transaction = begin(file, flags);
+  MDB_dbi rows = 0;
+  checkLmdb(mdb_dbi_open(transaction.get(), nullptr, 0, &rows), file.path, "cannot be opened");
+  return rows;
+}
+
 class LmdbDatabase final : public Database {
  public:
   LmdbDatabase(LmdbFilePtr file, DatabaseAccess access) : file_(std::move(file)), access_(access) {}
@@ -113,12 +139,7 @@ class LmdbDatabase final : public Database {
     check(access_ == DatabaseAccess::kWrite, file_->path + " was opened for reading");
     return std::make_unique<LmdbWriter>(file_);
   }
-  uint64_t bytes() override {
-    std::error_code error;
-    const uint64_t bytes = fs::file_size(file_->path, error);
-    check(!error, file_->path + " cannot be looked at: " + error.message());
-    return bytes;
-  }
+  uint64_t bytes() override { return fileBytes(*file_); }
   bool isThere() const override { return depth_fusion::isThere(*file_); }
   std::string name() const override { return file_->path; }
 
@@ -157,8 +178,7 @@ class OpenFiles {
     const unsigned flags = openingFlags(path);
     file->path = path;
     file->environment = openEnvironment(path, flags);
-    const LmdbTransaction transaction = begin(*file, flags & MDB_RDONLY);
-    checkLmdb(mdb_dbi_open(transaction.get(), nullptr, 0, &file->rows), path, "cannot be opened");
+    file->rows = openRows(*file, flags & MDB_RDONLY);
     files_[path] = file;
     return file;
   }
@@ -183,6 +203,27 @@ std::unique_ptr<Database> openLmdb(const std::string& path, DatabaseAccess acces
   check(!fs::is_directory(path), path + " is a folder; give the name of a file");
   if (access == DatabaseAccess::kWrite) checkWritable(path);
   return std::make_unique<LmdbDatabase>(openFiles().open(fs::weakly_canonical(path).string()), access);
+}
+
+std::unique_ptr<Database> openScratch(const std::string& folder) {
+  std::error_code error;
+  const fs::path where = folder.empty() ? fs::temp_directory_path(error) : fs::path(folder);
+  std::string path = (where / "depth_fusion_XXXXXX").string();
+  const int descriptor = mkstemp(path.data());
+  check(descriptor >= 0, "no file can be made in the folder " + where.string() + " (" + strerror(errno) +
+                             "); give submaps/store one that can be written");
+  close(descriptor);
+  auto file = std::make_shared<LmdbFile>();
+  file->path = path;
+  try {
+    file->environment = openEnvironment(path, MDB_NOSYNC);
+    file->rows = openRows(*file, 0);
+  } catch (...) {
+    removeFiles(path);
+    throw;
+  }
+  removeFiles(path);
+  return std::make_unique<LmdbDatabase>(file, DatabaseAccess::kWrite);
 }
 
 }  // namespace depth_fusion

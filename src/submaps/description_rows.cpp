@@ -9,7 +9,7 @@ namespace depth_fusion {
 namespace {
 
 // Changes with what is in any of a map's rows. A map of another version is not read.
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr char kMagic[] = "depth_fusion map";
 
 void writeTexts(ByteWriter& bytes, const std::vector<std::string>& texts) {
@@ -62,6 +62,8 @@ std::string descriptionRow(const MapDescription& description) {
   write(bytes, description.camera);
   bytes.number(description.last_pose.stamp_s);
   write(bytes, description.last_pose.T_W_D);
+  bytes.number(description.way_m);
+  bytes.number(description.active_submap);
   writeTexts(bytes, description.layers);
   return packed(bytes.take());
 }
@@ -84,6 +86,8 @@ MapDescription parseDescription(const std::string& row, const std::string& where
   description.camera = readCamera(bytes);
   description.last_pose.stamp_s = bytes.number<double>();
   description.last_pose.T_W_D = readPose(bytes);
+  description.way_m = bytes.number<double>();
+  description.active_submap = bytes.number<uint32_t>();
   description.layers = readTexts(bytes);
   checkAtEnd(bytes);
   return description;
@@ -96,6 +100,7 @@ std::string submapRow(const SubmapDescription& submap) {
   for (const int i : submap.window.origin) bytes.number(i);
   bytes.number(submap.window.blocks_per_axis);
   bytes.number(submap.blocks);
+  bytes.number(submap.left_at_m);
   return packed(bytes.take());
 }
 
@@ -108,6 +113,7 @@ SubmapDescription parseSubmap(const std::string& row, const std::string& where) 
   for (int& i : submap.window.origin) i = bytes.number<int>();
   submap.window.blocks_per_axis = bytes.number<int>();
   submap.blocks = bytes.number<uint64_t>();
+  submap.left_at_m = bytes.number<double>();
   checkAtEnd(bytes);
   checkBlock(submap.window.origin);
   MapParameters map;

@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/submaps/map_file.h"
-#include "map/block_transfer.h"
-#include "submaps/block_rows.h"
+#include "submaps/block_store.h"
 #include "submaps/description_rows.h"
 #include "submaps/keyframe_rows.h"
 #include "submaps/row_keys.h"
@@ -18,8 +16,7 @@ std::string rowName(const Database& database, const std::string& key) {
 }
 
 // The window that the map had, or one of another size about the same blocks.
-Window windowFor(const SubmapDescription& submap, const BlockMap& map) {
-  const int n = map.parameters().blocks_per_axis;
+Window windowFor(const SubmapDescription& submap, int n) {
   const Window& stored = submap.window;
   return {stored.origin.array() + (stored.blocks_per_axis - n) / 2, n};
 }
@@ -44,67 +41,76 @@ MapDescription describeMap(const Database& database, DatabaseReader& reader) {
 
 MapDescription describeMap(Database& database) { return describeMap(database, *database.read()); }
 
-ReadMap::ReadMap(Database& database, const BlockMap& map) {
+ReadMap::ReadMap(Database& database, const SubmapCollection& submaps)
+    : block_size_(submaps.map().parameters().block_size) {
   const std::unique_ptr<DatabaseReader> reader = database.read();
   loaded_.description = describeMap(database, *reader);
   const MapDescription& stored = loaded_.description;
-  const std::string name = database.name();
-  check(!stored.submaps.empty(), name + " is damaged: it has no submap");
-  MapParameters parameters = map.parameters();
+  MapParameters parameters = submaps.map().parameters();
   for (const char* parameter : kVoxelParameters)
-    checkSameParameter(stored, parameter, withPrefix("map", parameters.table()), name);
-  const SubmapDescription& submap = stored.submaps.front();
-  window_ = windowFor(submap, map);
-  for (const LayerRow& row : layersOf(map.parameters())) {
-    if (std::count(stored.layers.begin(), stored.layers.end(), row.name) > 0)
-      readLayer(database, *reader, row, map.parameters().block_size);
-  }
-  check(!layers_.empty() && layers_.front().blocks.size() == submap.blocks,
-        name + " is damaged: it does not have the blocks that it says");
-  checkRoom(map, name);
-  reader->forEach(keyframePrefix(submap.id), [&](const std::string& key, const std::string& value) {
+    checkSameParameter(stored, parameter, withPrefix("map", parameters.table()), database.name());
+  const std::vector<LayerRow> layers = layersOf(parameters);
+  store_ = std::make_unique<BlockStore>(submaps.parameters_, layers, block_size_);
+  for (const SubmapDescription& submap : stored.submaps) readSubmap(database, *reader, submap.id, layers);
+  checkSubmaps(database.name());
+  reader->forEach(keyframePrefix(0), [&](const std::string& key, const std::string& value) {
     loaded_.keyframes.push_back(
         std::make_shared<const Keyframe>(parseKeyframe(value, rowName(database, key))));
     loaded_.keyframe_numbers.push_back(numberOfKey(key));
   });
 }
 
-void ReadMap::readLayer(const Database& database, DatabaseReader& reader, const LayerRow& row,
-                        int block_size) {
-  Layer layer{row, {}, {}, {}};
-  const std::string prefix = blocksPrefix(loaded_.description.submaps.front().id, row.name);
-  reader.forEach(prefix, [&](const std::string& key, const std::string& value) {
-    const BlockGroup group =
-        parseBlocks(value, groupOfKey(key, prefix), row, block_size, rowName(database, key));
-    layer.blocks.insert(layer.blocks.end(), group.blocks.begin(), group.blocks.end());
-    layer.states.insert(layer.states.end(), group.states.begin(), group.states.end());
-    layer.voxels += group.voxels;
+ReadMap::~ReadMap() = default;
+
+void ReadMap::readSubmap(const Database& database, DatabaseReader& reader, uint32_t submap,
+                         const std::vector<LayerRow>& layers) {
+  const std::string prefix = blocksPrefix(submap, layers.front().name);
+  reader.forEach(prefix, [&](const std::string& key, const std::string& row) {
+    const BlockIndex index = groupOfKey(key, prefix);
+    const BlockGroup first = parseBlocks(row, index, layers.front(), block_size_, rowName(database, key));
+    BlockStore::Rows rows = {row};
+    for (size_t i = 1; i < layers.size(); ++i)
+      rows.push_back(otherRow(database, reader, submap, layers[i], index, first.blocks));
+    loaded_.groups[index][submap] = first.blocks.size();
+    store_->putRows({submap, index}, std::move(rows), first.blocks.size());
   });
-  check(layers_.empty() || layers_.front().blocks == layer.blocks,
-        database.name() + " is damaged: its layer " + row.name + " has other blocks than the first");
-  layers_.push_back(std::move(layer));
 }
 
-void ReadMap::checkRoom(const BlockMap& map, const std::string& name) const {
-  const std::vector<BlockIndex>& blocks = layers_.front().blocks;
-  const size_t block_bytes = layers_.front().row.bytesPerBlock(map.parameters().block_size);
-  check(blocks.size() <= map.slots().capacity(),
-        name + " has " + std::to_string(blocks.size()) + " blocks, and the pool holds " +
-            std::to_string(map.slots().capacity()) + "; set map/pool_mib to " +
-            std::to_string((blocks.size() * block_bytes >> 20) + 1) + " or more");
-  for (const BlockIndex& block : blocks)
-    check(window_.contains(block), name + " is larger than the map's window; raise map/blocks_per_axis");
+std::string ReadMap::otherRow(const Database& database, DatabaseReader& reader, uint32_t submap,
+                              const LayerRow& layer, const BlockIndex& index,
+                              const std::vector<BlockIndex>& blocks) const {
+  const std::vector<std::string>& stored = loaded_.description.layers;
+  if (std::count(stored.begin(), stored.end(), layer.name) == 0)
+    return blocksRow(clearedGroup(blocks, layer, block_size_), index, layer, block_size_);
+  const std::string key = blocksKey(submap, layer.name, index);
+  const std::optional<std::string> row = reader.get(key);
+  const bool is_there =
+      row && parseBlocks(*row, index, layer, block_size_, rowName(database, key)).blocks == blocks;
+  check(is_there, database.name() + " is damaged: its layer " + layer.name + " has other blocks than the first");
+  return *row;
 }
 
-void ReadMap::moveTo(BlockMap& map) const {
-  const int block_size = map.parameters().block_size;
-  map.resetAt(window_.origin);
-  const std::vector<int> slots = map.insert(layers_.front().blocks);
-  const std::vector<int>& states = layers_.front().states;
-  writeSlots(map.blockStates(), slots,
-             {reinterpret_cast<const char*>(states.data()), states.size() * sizeof(int)}, sizeof(int));
-  for (const Layer& layer : layers_)
-    writeSlots(map.layer(layer.row.name), slots, layer.voxels, layer.row.bytesPerBlock(block_size));
+void ReadMap::checkSubmaps(const std::string& name) const {
+  const std::vector<SubmapDescription>& submaps = loaded_.description.submaps;
+  std::vector<uint64_t> blocks(submaps.size(), 0);
+  for (const auto& [group, counts] : loaded_.groups) {
+    for (const auto& [submap, count] : counts) blocks.at(submap) += count;
+  }
+  check(loaded_.description.active_submap < submaps.size(), name + " is damaged: it lacks a submap");
+  for (size_t i = 0; i < submaps.size(); ++i)
+    check(submaps[i].id == i && submaps[i].blocks == blocks[i],
+          name + " is damaged: it does not have the blocks that it says");
+}
+
+void ReadMap::moveTo(SubmapCollection& submaps) {
+  const MapDescription& description = loaded_.description;
+  std::vector<SubmapCollection::GroupSizes> stored(description.submaps.size());
+  for (const auto& [group, counts] : loaded_.groups) {
+    for (const auto& [submap, count] : counts) stored[submap][group] = count;
+  }
+  const int n = submaps.map().parameters().blocks_per_axis;
+  submaps.adopt(description, std::move(stored), std::move(store_),
+                windowFor(description.submaps[description.active_submap], n));
 }
 
 }  // namespace depth_fusion

@@ -1,22 +1,21 @@
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <random>
 #include <utility>
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/submaps/map_file.h"
-#include "map/block_transfer.h"
 #include "submaps/block_rows.h"
 #include "submaps/description_rows.h"
 #include "submaps/keyframe_rows.h"
 #include "submaps/row_keys.h"
+#include "submaps/whole_map.h"
 
 namespace depth_fusion {
 namespace {
 
 constexpr char kSoftware[] = "depth_fusion 0.1.0";
-constexpr uint32_t kSubmap = 0;  // the only one
+constexpr uint32_t kKeyframes = 0;  // they are all in one list
 
 uint64_t randomId() {
   std::random_device random;
@@ -43,7 +42,13 @@ void removeMap(DatabaseWriter& writer, const std::string& name) {
 
 }  // namespace
 
-void MapSaver::capture(BlockMap& map, const MapDescription& description, const Keyframes& keyframes) {
+MapSaver::MapSaver(std::string location) : location_(std::move(location)) {}
+
+MapSaver::~MapSaver() = default;
+
+void MapSaver::capture(SubmapCollection& submaps, const MapDescription& description,
+                       const Keyframes& keyframes) {
+  BlockMap& map = submaps.map();
   if (!changes_ || map.generation() != generation_) {
     changes_ = map.follow();
     generation_ = map.generation();
@@ -52,35 +57,18 @@ void MapSaver::capture(BlockMap& map, const MapDescription& description, const K
   const MapChanges changes = changes_->take();
   everything_changed_ = everything_changed_ || changes.complete;
   const int edge = groupEdge(map.parameters().block_size);
-  for (const auto* blocks : {&changes.updated, &changes.released}) {
+  for (const auto* blocks : {&changes.updated, &changes.released, &changes.evicted}) {
     for (const BlockIndex& block : *blocks) changed_groups_.insert(groupOf(block, edge));
   }
   captured_ = Capture();
   captured_->description = description;
+  captured_->description.layers = namesOf(layersOf(map.parameters()));
+  captured_->description.submaps = submaps.submaps();
+  captured_->description.active_submap = submaps.active();
+  captured_->description.way_m = submaps.way_m();
+  captured_->blocks = std::make_unique<WholeMap>(submaps, everything_changed_ ? nullptr : &changed_groups_);
   captured_->keyframes = keyframes;
   captured_->everything = everything_changed_;
-  copyBlocks(map);
-}
-
-void MapSaver::copyBlocks(BlockMap& map) {
-  Capture& capture = *captured_;
-  capture.block_size = map.parameters().block_size;
-  capture.layers = layersOf(map.parameters());
-  capture.submap = {kSubmap, Pose::Identity(), map.window(), map.slots().used()};
-  const int edge = groupEdge(capture.block_size);
-  std::vector<int> slots;
-  for (int slot = 0; slot < map.slots().bound(); ++slot) {
-    if (!map.slots().inUse(slot)) continue;
-    const BlockIndex& block = map.slots().blockOf(slot);
-    if (!everything_changed_ && changed_groups_.count(groupOf(block, edge)) == 0) continue;
-    capture.blocks.push_back({block, slot});
-    slots.push_back(slot);
-  }
-  capture.states = readSlots(map.blockStates(), slots, sizeof(int));
-  capture.description.layers = namesOf(capture.layers);
-  for (const LayerRow& layer : capture.layers)
-    capture.voxels.push_back(
-        readSlots(map.layer(layer.name), slots, layer.bytesPerBlock(capture.block_size)));
 }
 
 bool MapSaver::isWritten(DatabaseReader& stored) const {
@@ -90,7 +78,8 @@ bool MapSaver::isWritten(DatabaseReader& stored) const {
   return description.id == id_ && description.revision == revision_;
 }
 
-void MapSaver::adopt(BlockMap& map, const LoadedMap& stored) {
+void MapSaver::adopt(SubmapCollection& submaps, const LoadedMap& stored) {
+  BlockMap& map = submaps.map();
   changes_ = map.follow();
   changes_->take();
   generation_ = map.generation();
@@ -98,6 +87,7 @@ void MapSaver::adopt(BlockMap& map, const LoadedMap& stored) {
   changed_groups_.clear();
   id_ = stored.description.id;
   revision_ = stored.description.revision;
+  written_groups_ = stored.groups;
   written_keyframes_.clear();
   for (size_t i = 0; i < stored.keyframes.size(); ++i)
     written_keyframes_[stored.keyframes[i]] = stored.keyframe_numbers[i];
@@ -122,13 +112,14 @@ SaveReport MapSaver::write() {
   description.saved_at_s = unixTime_s();
   description.software = kSoftware;
   writer->put(kDescriptionKey, descriptionRow(description));
-  writer->put(submapKey(kSubmap), submapRow(captured_->submap));
-  writeBlocks(*writer);
+  SaveReport report{database_->name(), 0, 0, 0, 0};
+  StoredGroups groups = writeBlocks(*writer, report);
+  writeSubmaps(*writer, groups, report);
   WrittenKeyframes keyframes = writeKeyframes(*writer, all);
   writer->commit();
-  SaveReport report{database_->name(), captured_->submap.blocks, captured_->blocks.size(), 0};
   everything_changed_ = false;
   changed_groups_.clear();
+  written_groups_ = std::move(groups);
   written_keyframes_ = std::move(keyframes);
   id_ = description.id;
   revision_ = description.revision;
@@ -145,44 +136,42 @@ bool MapSaver::hasChanges() const {
                      [this](const KeyframePtr& keyframe) { return written_keyframes_.count(keyframe) == 0; });
 }
 
-void MapSaver::writeBlocks(DatabaseWriter& writer) const {
-  const Capture& capture = *captured_;
-  const int edge = groupEdge(capture.block_size);
-  std::map<BlockIndex, std::vector<size_t>, BlockOrder> groups;  // places of their blocks
-  if (!capture.everything) {
-    for (const BlockIndex& group : changed_groups_) groups[group] = {};
+StoredGroups MapSaver::writeBlocks(DatabaseWriter& writer, SaveReport& report) const {
+  WholeMap& blocks = *captured_->blocks;
+  const auto forEachKey = [&](const BlockIndex& group, uint32_t submap, const auto& function) {
+    for (size_t i = 0; i < blocks.layers().size(); ++i)
+      function(blocksKey(submap, blocks.layers()[i].name, group), i);
+  };
+  StoredGroups stored = captured_->everything ? StoredGroups() : written_groups_;
+  for (const BlockIndex& group : changed_groups_) {
+    const auto before = stored.find(group);
+    if (before == stored.end()) continue;
+    for (const auto& [submap, count] : before->second)
+      forEachKey(group, submap, [&](const std::string& key, size_t) { writer.erase(key); });
+    stored.erase(before);
   }
-  for (size_t place = 0; place < capture.blocks.size(); ++place)
-    groups[groupOf(capture.blocks[place].index, edge)].push_back(place);
-  for (auto& [index, places] : groups) {
-    std::sort(places.begin(), places.end(),
-              [&](size_t a, size_t b) { return before(capture.blocks[a].index, capture.blocks[b].index); });
-    writeGroup(writer, index, places);
+  for (const auto& [group, submaps] : blocks.groups()) {
+    for (const auto& [submap, count] : submaps) {
+      const std::vector<std::string> rows = blocks.rows({submap, group});
+      forEachKey(group, submap, [&](const std::string& key, size_t i) { writer.put(key, rows[i]); });
+      report.blocks_written += count;
+    }
+    stored[group] = submaps;
   }
+  return stored;
 }
 
-void MapSaver::writeGroup(DatabaseWriter& writer, const BlockIndex& index,
-                          const std::vector<size_t>& places) const {
-  const Capture& capture = *captured_;
-  BlockGroup group;
-  for (const size_t place : places) {
-    group.blocks.push_back(capture.blocks[place].index);
-    int state = 0;
-    std::memcpy(&state, &capture.states[place * sizeof(int)], sizeof(int));
-    group.states.push_back(state);
+void MapSaver::writeSubmaps(DatabaseWriter& writer, const StoredGroups& stored, SaveReport& report) const {
+  std::vector<SubmapDescription> submaps = captured_->description.submaps;
+  for (SubmapDescription& submap : submaps) submap.blocks = 0;
+  for (const auto& [group, counts] : stored) {
+    for (const auto& [submap, count] : counts) submaps.at(submap).blocks += count;
   }
-  for (size_t i = 0; i < capture.layers.size(); ++i) {
-    const LayerRow& layer = capture.layers[i];
-    const std::string key = blocksKey(kSubmap, layer.name, index);
-    if (places.empty()) {
-      writer.erase(key);
-      continue;
-    }
-    const size_t bytes = layer.bytesPerBlock(capture.block_size);
-    group.voxels.clear();
-    for (const size_t place : places) group.voxels.append(capture.voxels[i], place * bytes, bytes);
-    writer.put(key, blocksRow(group, index, layer, capture.block_size));
+  for (const SubmapDescription& submap : submaps) {
+    writer.put(submapKey(submap.id), submapRow(submap));
+    report.blocks += submap.blocks;
   }
+  report.submaps = static_cast<uint32_t>(submaps.size());
 }
 
 MapSaver::WrittenKeyframes MapSaver::writeKeyframes(DatabaseWriter& writer, bool all) const {
@@ -195,11 +184,11 @@ MapSaver::WrittenKeyframes MapSaver::writeKeyframes(DatabaseWriter& writer, bool
     const auto known = written_keyframes_.find(keyframe);
     const bool is_there = !all && known != written_keyframes_.end();
     written[keyframe] = is_there ? known->second : next++;
-    if (!is_there) writer.put(keyframeKey(kSubmap, written[keyframe]), keyframeRow(*keyframe));
+    if (!is_there) writer.put(keyframeKey(kKeyframes, written[keyframe]), keyframeRow(*keyframe));
   }
   if (all) return written;
   for (const auto& [keyframe, number] : written_keyframes_) {
-    if (written.count(keyframe) == 0) writer.erase(keyframeKey(kSubmap, number));
+    if (written.count(keyframe) == 0) writer.erase(keyframeKey(kKeyframes, number));
   }
   return written;
 }

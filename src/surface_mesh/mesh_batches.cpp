@@ -24,6 +24,8 @@ uint64_t mortonCode(const Eigen::Vector3i& index) {
   return spread(index.x()) | spread(index.y()) << 1 | spread(index.z()) << 2;
 }
 
+Eigen::Vector3i placeOf(uint64_t code) { return {gathered(code), gathered(code >> 1), gathered(code >> 2)}; }
+
 uint64_t nextAlong(uint64_t code, int axis) {
   const uint64_t mask = kAxisBits[axis];
   return (((code | ~mask) + (uint64_t{1} << axis)) & mask) | (code & ~mask);
@@ -31,10 +33,14 @@ uint64_t nextAlong(uint64_t code, int axis) {
 
 }  // namespace
 
-MeshBlock meshBlock(const BlockMap& map, const BlockIndex& index) {
+MeshBlock meshBlock(const BlockIndex& origin, const BlockIndex& index) {
   MeshBlock block;
-  block.morton_code = mortonCode(index - map.window().origin);
+  block.morton_code = mortonCode(index - origin);
   return block;
+}
+
+BlockIndex indexOf(const BlockIndex& origin, const MeshBlock& block) {
+  return origin + placeOf(block.morton_code);
 }
 
 void sortAlongMortonCurve(std::vector<MeshBlock>& blocks) {
@@ -42,31 +48,25 @@ void sortAlongMortonCurve(std::vector<MeshBlock>& blocks) {
             [](const MeshBlock& a, const MeshBlock& b) { return a.morton_code < b.morton_code; });
 }
 
-std::vector<MeshBlock> mortonOrderedBlocks(const BlockMap& map) {
-  std::vector<MeshBlock> ordered;
-  for (const SlotTable::Block& block : map.slots().blocks()) ordered.push_back(meshBlock(map, block.index));
-  sortAlongMortonCurve(ordered);
-  return ordered;
-}
-
-MeshBlockArgs blockArgs(const BlockMap& map, const MeshBlock& block) {
+MeshBlockArgs blockArgs(const BlockIndex& origin, const MeshBlock& block) {
   MeshBlockArgs args{};
-  for (int axis = 0; axis < 3; ++axis)
-    args.index[axis] = map.window().origin[axis] + gathered(block.morton_code >> axis);
+  const BlockIndex index = indexOf(origin, block);
+  for (int axis = 0; axis < 3; ++axis) args.index[axis] = index[axis];
   args.first_vertex = block.first_vertex;
   return args;
 }
 
-MeshBatcher::MeshBatcher(const BlockMap& map, const std::vector<MeshBlock>& blocks, const BatchLimits& limits)
-    : map_(map), blocks_(blocks), limits_(limits), places_(blocks.size(), -1) {}
+MeshBatcher::MeshBatcher(const BlockIndex& origin, const std::vector<MeshBlock>& blocks,
+                         const BatchLimits& limits)
+    : origin_(origin), blocks_(blocks), limits_(limits), places_(blocks.size(), -1) {}
 
-MeshBatch MeshBatcher::next() {
+MeshBatch MeshBatcher::next(size_t end) {
   const size_t begin = next_;
   MeshBatch batch;
   batch.first_vertex = blocks_[begin].first_vertex;
   std::vector<Neighbours> core;
   std::vector<size_t> members;
-  for (; !done() && (next_ == begin || fits(batch, members.size(), blocks_[next_])); ++next_) {
+  for (; !done(end) && (next_ == begin || fits(batch, members.size(), blocks_[next_])); ++next_) {
     core.push_back(neighboursOf(next_));
     for (const size_t neighbour : core.back()) {
       if (neighbour == kNowhere || places_[neighbour] >= 0) continue;
@@ -110,14 +110,14 @@ void MeshBatcher::fill(MeshBatch& batch, size_t core_begin, const std::vector<Ne
   uint32_t first_triangle = 0;
   for (size_t block = core_begin; block < next_; ++block) {
     places_[block] = static_cast<int>(batch.blocks.size());
-    batch.blocks.push_back(blockArgs(map_, blocks_[block]));
+    batch.blocks.push_back(blockArgs(origin_, blocks_[block]));
     batch.blocks.back().first_triangle = first_triangle;
     first_triangle += blocks_[block].triangles;
   }
   for (const size_t member : members) {
     if (member < next_) continue;
     places_[member] = static_cast<int>(batch.blocks.size());
-    batch.blocks.push_back(blockArgs(map_, blocks_[member]));
+    batch.blocks.push_back(blockArgs(origin_, blocks_[member]));
   }
   for (size_t i = 0; i < core.size(); ++i) {
     for (int n = 0; n < 8; ++n)

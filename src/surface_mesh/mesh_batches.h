@@ -12,21 +12,21 @@
 namespace depth_fusion {
 
 struct MeshBlock {
-  uint64_t morton_code = 0;  // of the index in the window
+  uint64_t morton_code = 0;  // of the index, counted from the list's origin
   uint32_t vertices = 0;
   uint32_t triangles = 0;
   uint32_t first_vertex = 0;
   bool lends_only = false;  // its vertices, to other blocks' triangles; it emits none itself
 };
 
-// Lists all the blocks of the map along the Morton curve, on which neighbours are mostly near each other.
-std::vector<MeshBlock> mortonOrderedBlocks(const BlockMap& map);
-
-MeshBlock meshBlock(const BlockMap& map, const BlockIndex& index);
+// The origin is at or before all the blocks of a list, in each axis, and not 2^21 blocks away.
+MeshBlock meshBlock(const BlockIndex& origin, const BlockIndex& index);
+BlockIndex indexOf(const BlockIndex& origin, const MeshBlock& block);
+// Along the Morton curve neighbours are mostly near each other.
 void sortAlongMortonCurve(std::vector<MeshBlock>& blocks);
 
 // Sets index and first vertex; the batch fills in the rest.
-MeshBlockArgs blockArgs(const BlockMap& map, const MeshBlock& block);
+MeshBlockArgs blockArgs(const BlockIndex& origin, const MeshBlock& block);
 
 struct BatchLimits {
   size_t blocks = 0;  // at least 8: a block and its neighbours
@@ -46,11 +46,13 @@ struct MeshBatch {
 
 class MeshBatcher {
  public:
-  // Keeps references. `blocks` is in Morton order, with counts and first vertices.
-  MeshBatcher(const BlockMap& map, const std::vector<MeshBlock>& blocks, const BatchLimits& limits);
+  // Keeps a reference. `blocks` is in Morton order, with counts and first vertices.
+  MeshBatcher(const BlockIndex& origin, const std::vector<MeshBlock>& blocks, const BatchLimits& limits);
 
-  bool done() const { return next_ == blocks_.size(); }
-  MeshBatch next();
+  // Whether the batches so far have all the blocks before `end`.
+  bool done(size_t end) const { return next_ >= end; }
+  // The next batch, of blocks before `end`.
+  MeshBatch next(size_t end);
 
  private:
   // Finds the block and those beyond its far sides, as MeshBlockArgs numbers them; kNowhere stands for a
@@ -63,7 +65,7 @@ class MeshBatcher {
   void fill(MeshBatch& batch, size_t core_begin, const std::vector<Neighbours>& core,
             const std::vector<size_t>& members);
 
-  const BlockMap& map_;
+  BlockIndex origin_;
   const std::vector<MeshBlock>& blocks_;
   BatchLimits limits_;
   std::vector<int> places_;  // in the current batch, -1 = not a member

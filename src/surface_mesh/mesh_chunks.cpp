@@ -30,6 +30,20 @@ void forEachOwner(const BlockIndex& block, int blocks_per_axis, const Visit& vis
   }
 }
 
+// Calls with each block of the map and each chunk that looks at it.
+template <class Visit>
+void forEachOwned(const BlockMap& map, int blocks_per_axis, const Visit& visit) {
+  for (int slot = 0; slot < map.slots().bound(); ++slot) {
+    if (!map.slots().inUse(slot)) continue;
+    const BlockIndex& index = map.slots().blockOf(slot);
+    forEachOwner(index, blocks_per_axis, [&](const MeshChunkIndex& chunk, bool lends_only) {
+      MeshBlock block = meshBlock(map.window().origin, index);
+      block.lends_only = lends_only;
+      visit(chunk, block);
+    });
+  }
+}
+
 }  // namespace
 
 struct MeshChunks::Extraction {
@@ -47,12 +61,15 @@ size_t MeshChunks::Hash::operator()(const MeshChunkIndex& chunk) const {
 
 MeshChunks::MeshChunks(ComputeContext& compute, BlockMap& map, const SurfaceMeshParameters& parameters,
                        int blocks_per_axis)
-    : map_(map), changes_(map.follow()), blocks_per_axis_(blocks_per_axis) {
-  SurfaceMeshParameters checked = parameters;
-  validate(checked.table());
+    : compute_(compute),
+      map_(map),
+      parameters_(parameters),
+      changes_(map.follow()),
+      blocks_per_axis_(blocks_per_axis) {
+  validate(parameters_.table());
   check(blocks_per_axis > 0, "a chunk of the mesh needs at least one block per axis");
-  kernels_ = std::make_unique<SurfaceMeshKernels>(compute, map, checked.min_certainty,
-                                                  static_cast<size_t>(checked.max_batch_blocks));
+  kernels_ = std::make_unique<SurfaceMeshKernels>(compute, map, parameters_.min_certainty,
+                                                  static_cast<size_t>(parameters_.max_batch_blocks));
 }
 
 MeshChunks::~MeshChunks() = default;
@@ -64,6 +81,7 @@ void MeshChunks::follow() {
   if (changes.complete) noteShown();
   for (const BlockIndex& block : changes.updated) noteAround(block);
   for (const BlockIndex& block : changes.released) noteAround(block);
+  for (const BlockIndex& block : changes.evicted) noteAround(block);
 }
 
 void MeshChunks::noteAll() {
@@ -127,7 +145,9 @@ std::vector<MeshChunk> MeshChunks::takeChanged(size_t max_count) {
   follow();
   std::vector<MeshChunk> chunks;
   for (Extraction& extraction : takeExtractions(max_count)) {
-    TriangleMesh mesh = extract(extraction);
+    BlockMap* elsewhere = elsewhere_ ? elsewhere_(boxOf(extraction.chunk)) : nullptr;
+    TriangleMesh mesh =
+        elsewhere ? extractFrom(*elsewhere, extraction.chunk) : extract(*kernels_, map_, extraction);
     const bool had_surface = has_surface_.erase(extraction.chunk) > 0;
     if (!mesh.triangles.empty()) has_surface_.insert(extraction.chunk);
     if (had_surface || !mesh.triangles.empty()) chunks.push_back({extraction.chunk, std::move(mesh)});
@@ -144,25 +164,40 @@ std::vector<MeshChunks::Extraction> MeshChunks::takeExtractions(size_t max_count
     extractions.push_back({changed_.front(), {}});
     changed_.pop_front();
   }
-  for (int slot = 0; slot < map_.slots().bound(); ++slot) {
-    if (!map_.slots().inUse(slot)) continue;
-    const BlockIndex& block = map_.slots().blockOf(slot);
-    forEachOwner(block, blocks_per_axis_, [&](const MeshChunkIndex& chunk, bool lends_only) {
-      const auto found = place.find(chunk);
-      if (found == place.end()) return;
-      MeshBlock mesh_block = meshBlock(map_, block);
-      mesh_block.lends_only = lends_only;
-      extractions[found->second].blocks.push_back(mesh_block);
-    });
-  }
+  forEachOwned(map_, blocks_per_axis_, [&](const MeshChunkIndex& chunk, const MeshBlock& block) {
+    const auto found = place.find(chunk);
+    if (found != place.end()) extractions[found->second].blocks.push_back(block);
+  });
   return extractions;
 }
 
-TriangleMesh MeshChunks::extract(Extraction& extraction) {
+TriangleMesh MeshChunks::extractFrom(BlockMap& map, const MeshChunkIndex& chunk) {
+  if (kernels_elsewhere_ == nullptr)
+    kernels_elsewhere_ = std::make_unique<SurfaceMeshKernels>(
+        compute_, map, parameters_.min_certainty, static_cast<size_t>(parameters_.max_batch_blocks));
+  Extraction extraction{chunk, {}};
+  forEachOwned(map, blocks_per_axis_, [&](const MeshChunkIndex& owner, const MeshBlock& block) {
+    if (owner == chunk) extraction.blocks.push_back(block);
+  });
+  return extract(*kernels_elsewhere_, map, extraction);
+}
+
+BlockBox MeshChunks::boxOf(const MeshChunkIndex& chunk) const {
+  const BlockIndex first = blocks_per_axis_ * BlockIndex(chunk[0], chunk[1], chunk[2]);
+  return {first, (first.array() + blocks_per_axis_ - 1).matrix().eval()};
+}
+
+TriangleMesh MeshChunks::extract(SurfaceMeshKernels& kernels, const BlockMap& map,
+                                 Extraction& extraction) const {
   sortAlongMortonCurve(extraction.blocks);
+  const BlockIndex& origin = map.window().origin;
+  countBlocks(kernels, origin, extraction.blocks);
   TriangleMesh mesh;
-  MeshSize size;
-  extractBlocks(*kernels_, map_, extraction.blocks, mesh, size);
+  MeshSize size = numberVertices(extraction.blocks);
+  size.colored = map.hasLayer(kColorLayer);
+  mesh.begin(size);
+  MeshEmission(kernels, origin, extraction.blocks, size.colored, mesh).emitUpTo(extraction.blocks.size());
+  mesh.finish();
   return partOf(mesh, mesh.triangles);
 }
 

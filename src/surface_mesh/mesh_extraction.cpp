@@ -6,15 +6,13 @@
 #include "depth_fusion/common/error.h"
 
 namespace depth_fusion {
-namespace {
 
-// The first pass counts the vertices and triangles of each block.
-void countBlocks(SurfaceMeshKernels& kernels, const BlockMap& map, std::vector<MeshBlock>& blocks) {
+void countBlocks(SurfaceMeshKernels& kernels, const BlockIndex& origin, std::vector<MeshBlock>& blocks) {
   std::vector<MeshBlockArgs> batch;
   for (size_t begin = 0; begin < blocks.size(); begin += batch.size()) {
     const size_t end = std::min(begin + kernels.limits().blocks, blocks.size());
     batch.clear();
-    for (size_t i = begin; i < end; ++i) batch.push_back(blockArgs(map, blocks[i]));
+    for (size_t i = begin; i < end; ++i) batch.push_back(blockArgs(origin, blocks[i]));
     kernels.classify(batch);
     const auto totals = kernels.totals(batch.size());
     for (size_t i = begin; i < end; ++i) {
@@ -22,14 +20,13 @@ void countBlocks(SurfaceMeshKernels& kernels, const BlockMap& map, std::vector<M
       blocks[i].triangles = blocks[i].lends_only ? 0 : totals[i - begin].triangles;
     }
   }
-}
-
-// Leaves out the blocks without surface and numbers the vertices of the others.
-MeshSize numberVertices(std::vector<MeshBlock>& blocks) {
   blocks.erase(
       std::remove_if(blocks.begin(), blocks.end(),
                      [](const MeshBlock& block) { return block.vertices == 0 && block.triangles == 0; }),
       blocks.end());
+}
+
+MeshSize numberVertices(std::vector<MeshBlock>& blocks) {
   MeshSize size;
   for (MeshBlock& block : blocks) {
     block.first_vertex = static_cast<uint32_t>(size.vertices);
@@ -42,37 +39,20 @@ MeshSize numberVertices(std::vector<MeshBlock>& blocks) {
   return size;
 }
 
-// The second pass emits the mesh itself. Returns the number of batches.
-size_t emitBlocks(SurfaceMeshKernels& kernels, const BlockMap& map, const std::vector<MeshBlock>& blocks,
-                  bool colored, MeshSink& sink) {
-  MeshBatcher batcher(map, blocks, kernels.limits());
-  std::vector<MeshVertex> vertices;
-  std::vector<MeshColor> colors;
-  std::vector<MeshTriangle> triangles;
-  size_t batches = 0;
-  for (; !batcher.done(); ++batches) {
-    const MeshBatch batch = batcher.next();
-    kernels.classify(batch.blocks);
-    kernels.emitVertices(batch, vertices);
-    if (colored) kernels.colorVertices(batch, colors);
-    sink.addVertices(vertices.data(), colored ? colors.data() : nullptr, vertices.size());
-    kernels.emitTriangles(batch, triangles);
-    sink.addTriangles(triangles.data(), triangles.size());
+MeshEmission::MeshEmission(SurfaceMeshKernels& kernels, const BlockIndex& origin,
+                           const std::vector<MeshBlock>& blocks, bool colored, MeshSink& sink)
+    : kernels_(kernels), batcher_(origin, blocks, kernels.limits()), colored_(colored), sink_(sink) {}
+
+void MeshEmission::emitUpTo(size_t end) {
+  for (; !batcher_.done(end); ++batches_) {
+    const MeshBatch batch = batcher_.next(end);
+    kernels_.classify(batch.blocks);
+    kernels_.emitVertices(batch, vertices_);
+    if (colored_) kernels_.colorVertices(batch, colors_);
+    sink_.addVertices(vertices_.data(), colored_ ? colors_.data() : nullptr, vertices_.size());
+    kernels_.emitTriangles(batch, triangles_);
+    sink_.addTriangles(triangles_.data(), triangles_.size());
   }
-  return batches;
-}
-
-}  // namespace
-
-size_t extractBlocks(SurfaceMeshKernels& kernels, const BlockMap& map, std::vector<MeshBlock>& blocks,
-                     MeshSink& sink, MeshSize& size) {
-  countBlocks(kernels, map, blocks);
-  size = numberVertices(blocks);
-  size.colored = map.hasLayer(kColorLayer);
-  sink.begin(size);
-  const size_t batches = emitBlocks(kernels, map, blocks, size.colored, sink);
-  sink.finish();
-  return batches;
 }
 
 }  // namespace depth_fusion

@@ -41,16 +41,28 @@ inline KeyframePtr someKeyframe(double x) {
   return std::make_shared<const Keyframe>(keyframe);
 }
 
-inline SaveReport save(MapSaver& saver, BlockMap& map, const Keyframes& keyframes = {}) {
+// The functions below are for maps that are in the pool as a whole.
+inline void capture(MapSaver& saver, BlockMap& map, const Keyframes& keyframes = {}) {
+  SubmapCollection submaps(map, {});
   saver.prepare();
-  saver.capture(map, describing(map), keyframes);
+  saver.capture(submaps, describing(map), keyframes);
+}
+
+inline SaveReport save(MapSaver& saver, BlockMap& map, const Keyframes& keyframes = {}) {
+  capture(saver, map, keyframes);
   return saver.write();
+}
+
+inline void adopt(MapSaver& saver, BlockMap& map, const LoadedMap& loaded) {
+  SubmapCollection submaps(map, {});
+  saver.adopt(submaps, loaded);
 }
 
 // Fills the map with the stored one. Throws Error as ReadMap does: the map is then as it was.
 inline LoadedMap loadMap(Database& database, BlockMap& map) {
-  const ReadMap read(database, map);
-  read.moveTo(map);
+  SubmapCollection submaps(map, {});
+  ReadMap read(database, submaps);
+  read.moveTo(submaps);
   return read.loaded();
 }
 

@@ -24,7 +24,7 @@ constexpr int kAnswers = 3;  // the file that the saver answers through
 void saveForEver(const std::string& path) {
   BlockMap map(compute(), smallMap());
   MapSaver saver(path);
-  if (const std::unique_ptr<Database> stored = openStoredMap(path)) saver.adopt(map, loadMap(*stored, map));
+  if (const std::unique_ptr<Database> stored = openStoredMap(path)) adopt(saver, map, loadMap(*stored, map));
   ChangingMap changing(compute(), map);
   for (uint32_t i = 0;; ++i) {
     changing.show(sphere({0.01 * (i % 4), 0.0, 0.0}, 0.12 + 0.01 * (i % 7)));

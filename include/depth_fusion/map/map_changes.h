@@ -21,6 +21,7 @@ struct MapChanges {
   bool complete = false;
   std::vector<BlockIndex> updated;   // blocks with other contents, the oldest change first
   std::vector<BlockIndex> released;  // blocks that are no longer in the map
+  std::vector<BlockIndex> evicted;   // blocks that changed, and have left memory since, for a store
 };
 
 class ChangeLog;
@@ -45,9 +46,9 @@ class MapSubscription {
 // bounded list, however many followers there are and however slow they are.
 class ChangeLog {
  public:
-  // Keeps a reference to the slots. A follower that has missed more than max_released blocks that were
-  // released is told of everything.
-  explicit ChangeLog(const SlotTable& slots, size_t max_released = 65536);
+  // Keeps a reference to the slots. A follower that has missed more than max_departed blocks that were
+  // released or evicted is told of everything.
+  explicit ChangeLog(const SlotTable& slots, size_t max_departed = 262144);
 
   MapSubscription subscribe();
   // Whether somebody holds a subscription. If nobody does, the notes below cost nothing.
@@ -57,6 +58,13 @@ class ChangeLog {
   void noteUpdated(const std::vector<int>& slots);
   // The blocks that these slots held are gone; told before the slots are given away again.
   void noteReleased(const std::vector<int>& slots);
+  // The blocks that these slots held are kept elsewhere, as they are; told before the slots are given away
+  // again.
+  void noteEvicted(const std::vector<int>& slots);
+  // These blocks, which are kept elsewhere, have other contents.
+  void noteChangedElsewhere(const std::vector<BlockIndex>& blocks);
+  // The blocks in these slots are back from there, as they were.
+  void noteReturned(const std::vector<int>& slots);
   // The map was emptied: a new generation begins.
   void noteReset();
 
@@ -64,24 +72,30 @@ class ChangeLog {
 
  private:
   friend class MapSubscription;
-  struct Release {
+  // Of a block that has left its slot.
+  struct Departure {
     uint64_t step;
     BlockIndex block;
+    bool evicted;
+    uint64_t updated_at;
   };
 
   // Begins a step; false if nobody is there to be told of it.
   bool beginStep();
+  void noteDeparted(const std::vector<int>& slots, bool evicted);
+  void noteDeparture(const Departure& departure);
   void forgetOldest();
+  uint64_t updatedAt(int slot) const;
   MapChanges changesSince(uint64_t step) const;
 
   const SlotTable& slots_;
-  size_t max_released_;
+  size_t max_departed_;
   uint32_t generation_;
   std::shared_ptr<const void> followers_;  // each subscription has a copy
   uint64_t step_ = 1;                      // counts the notes
   uint64_t complete_from_ = 1;             // who was told of less than this step is told of everything
   std::vector<uint64_t> updated_at_;       // the step of a slot's last update
-  std::deque<Release> released_;
+  std::deque<Departure> departed_;
 };
 
 }  // namespace depth_fusion

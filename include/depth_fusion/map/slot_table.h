@@ -11,7 +11,8 @@ namespace depth_fusion {
 
 using BlockBox = Eigen::AlignedBox3i;  // its corners are blocks inside
 
-// Slots are numbered from 0 on. Those released last are given away first. It lives on the host alone; the way
+// Slots are numbered from 0 on. Those released last are given away first, in
+// their order. It lives on the host alone; the way
 // back, from a block to its slot, is the map's `offsets` on the device.
 class SlotTable {
  public:

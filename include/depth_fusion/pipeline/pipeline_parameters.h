@@ -9,6 +9,7 @@
 #include "depth_fusion/preprocessing/preprocessing_parameters.h"
 #include "depth_fusion/registration/registration_parameters.h"
 #include "depth_fusion/relocalisation/relocalisation_parameters.h"
+#include "depth_fusion/submaps/submap_parameters.h"
 #include "depth_fusion/surface_mesh/surface_mesh_parameters.h"
 #include "depth_fusion/texture_odometry/texture_odometry_parameters.h"
 #include "depth_fusion/tsdf_fusion/tsdf_fusion_parameters.h"
@@ -17,6 +18,7 @@ namespace depth_fusion {
 
 struct PipelineParameters {
   MapParameters map;
+  SubmapParameters submaps;
   RegistrationParameters registration;
   DepthSensorParameters depth_sensor;
   PreprocessingParameters preprocessing;

@@ -40,7 +40,9 @@ class ReconstructionPipeline {
   // Saves the map as it is now. Throws Error if it cannot be written.
   SaveReport save(MapSaver& saver);
 
+  // The part of the map that is in the pool.
   BlockMap& map() { return map_; }
+  SubmapCollection& submaps() { return submaps_; }
   StageTimers& timers() { return timers_; }
   const PipelineParameters& parameters() const { return parameters_; }
   // The last frame, preprocessed; null before the first.
@@ -53,12 +55,13 @@ class ReconstructionPipeline {
   // exception leaves unfinished is given up, so that the next one can come.
   void fuseAndRender(const RgbdFrame& frame, FrameResult& result);
   // Fuses the session's frame, unless it is lost; it is lost if nothing could be fused.
-  void fuse(const RgbdFrame& frame, FrameResult& result);
+  void fuse(const RgbdFrame& frame, FrameResult& result, bool is_given = false);
 
   PipelineParameters parameters_;
   CameraIntrinsics camera_;
   StageTimers timers_;
   BlockMap map_;
+  SubmapCollection submaps_;
   TextureOdometry odometry_;
   Mapper mapper_;
   std::unique_ptr<ComputeContext> tracking_queue_;

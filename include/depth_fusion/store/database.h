@@ -63,6 +63,10 @@ std::unique_ptr<Database> openDatabase(const std::string& location, DatabaseAcce
 // Opens the database there to be read; null if there is none. Makes nothing.
 std::unique_ptr<Database> openIfThere(const std::string& location);
 
+// An empty database for this process alone, in a file of the folder (empty: the system's for temporary files)
+// that is gone with it. What is written does not outlast the machine. Throws Error if it cannot be made.
+std::unique_ptr<Database> openScratch(const std::string& folder);
+
 // The place for messages: without a password. Throws Error for an address that is none.
 std::string placeName(const std::string& location);
 

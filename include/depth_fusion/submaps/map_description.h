@@ -18,6 +18,7 @@ struct SubmapDescription {
   Pose T_W_S = Pose::Identity();
   Window window;
   uint64_t blocks = 0;
+  double left_at_m = 0.0;  // on the sensor's way, when it was active last
 };
 
 // The parameters that say where a map's voxels are, and what their distances mean.
@@ -32,6 +33,8 @@ struct MapDescription {
       parameters;           // of what was fused, by the names of their rows
   CameraIntrinsics camera;  // of the depth that was fused
   StampedPose last_pose;    // of the sensor
+  double way_m = 0.0;       // of the sensor so far, where its poses are tracked
+  uint32_t active_submap = 0;
   std::vector<std::string> layers;
   std::vector<SubmapDescription> submaps;  // in rows of their own
 

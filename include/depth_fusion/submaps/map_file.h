@@ -13,12 +13,19 @@
 #include "depth_fusion/relocalisation/keyframe.h"
 #include "depth_fusion/store/database.h"
 #include "depth_fusion/submaps/map_description.h"
+#include "depth_fusion/submaps/submap_collection.h"
 
 namespace depth_fusion {
+
+class WholeMap;
+
+// The groups of blocks that are stored, with the number of their blocks in each submap.
+using StoredGroups = std::map<BlockIndex, std::map<uint32_t, size_t>, BlockOrder>;
 
 // What a stored map holds beside its blocks.
 struct LoadedMap {
   MapDescription description;
+  StoredGroups groups;
   Keyframes keyframes;
   std::vector<uint32_t> keyframe_numbers;  // in their rows
 };
@@ -26,6 +33,7 @@ struct LoadedMap {
 // What a save wrote, and what is there now.
 struct SaveReport {
   std::string place;            // for messages
+  uint32_t submaps = 0;
   uint64_t blocks = 0;          // of the map
   uint64_t blocks_written = 0;  // those that had changed, and their neighbours
   uint64_t bytes = 0;           // of the whole map where it lies
@@ -36,16 +44,18 @@ struct SaveReport {
 class MapSaver {
  public:
   // The place is as openDatabase has it.
-  explicit MapSaver(std::string location) : location_(std::move(location)) {}
+  explicit MapSaver(std::string location);
+  ~MapSaver();
 
   // The map is the one that is stored there: saves write what changes from now on.
-  void adopt(BlockMap& map, const LoadedMap& stored);
+  void adopt(SubmapCollection& submaps, const LoadedMap& stored);
   // Looks at what is stored, to know whether all of the map is to be written there: before capture(). Throws
   // Error if nothing can be written there.
   void prepare();
   // Keeps what has changed of the map, as it is now, for write(); whoever calls it holds what guards the map.
-  // Of the description, the caller gives parameters, camera and last pose.
-  void capture(BlockMap& map, const MapDescription& description, const Keyframes& keyframes);
+  // Of the description, the caller gives parameters, camera and last pose. Throws Error if what the pool does
+  // not hold cannot be read.
+  void capture(SubmapCollection& submaps, const MapDescription& description, const Keyframes& keyframes);
   // Writes what was captured last. Throws Error if it cannot be written; what is stored is then as it was,
   // and the next save makes up for it.
   SaveReport write();
@@ -56,12 +66,7 @@ class MapSaver {
   // What is to be written.
   struct Capture {
     MapDescription description;
-    SubmapDescription submap;
-    int block_size = 0;
-    std::vector<LayerRow> layers;
-    std::vector<SlotTable::Block> blocks;  // in the order of their slots, and so are the next two
-    std::string states;                    // an int each
-    std::vector<std::string> voxels;       // of each layer
+    std::unique_ptr<WholeMap> blocks;  // of the groups that changed
     Keyframes keyframes;
     bool everything = false;
   };
@@ -70,11 +75,9 @@ class MapSaver {
 
   // Whether what is stored is what this saver wrote last.
   bool isWritten(DatabaseReader& stored) const;
-  // Copies the blocks of the groups that changed.
-  void copyBlocks(BlockMap& map);
-  void writeBlocks(DatabaseWriter& writer) const;
-  // A row of each layer of the blocks at these places of the capture; none if there is no block.
-  void writeGroup(DatabaseWriter& writer, const BlockIndex& index, const std::vector<size_t>& places) const;
+  // Return what is then stored.
+  StoredGroups writeBlocks(DatabaseWriter& writer, SaveReport& report) const;
+  void writeSubmaps(DatabaseWriter& writer, const StoredGroups& stored, SaveReport& report) const;
   WrittenKeyframes writeKeyframes(DatabaseWriter& writer, bool all) const;
 
   std::string location_;
@@ -84,6 +87,7 @@ class MapSaver {
   std::optional<Capture> captured_;
   bool everything_changed_ = true;
   std::set<BlockIndex, BlockOrder> changed_groups_;  // since what is stored
+  StoredGroups written_groups_;
   WrittenKeyframes written_keyframes_;
   uint64_t id_ = 0, revision_ = 0;  // of what this saver wrote last; 0: nothing
 };
@@ -99,29 +103,26 @@ MapDescription describeMap(Database& database);
 // A stored map that was read, to take another one's place.
 class ReadMap {
  public:
-  // Reads the map for one with the parameters and the pool of `map`, of which nothing else is looked at.
-  // Throws Error if the two do not fit together, or if what is stored is damaged.
-  ReadMap(Database& database, const BlockMap& map);
+  // Reads the map for one with the parameters of `submaps`, of which nothing else is looked at. Throws Error
+  // if the two do not fit together, or if what is stored is damaged.
+  ReadMap(Database& database, const SubmapCollection& submaps);
+  ~ReadMap();
 
-  // Fills the map; what it held before is gone.
-  void moveTo(BlockMap& map) const;
+  // Fills the map, once; what it held before is gone.
+  void moveTo(SubmapCollection& submaps);
   const LoadedMap& loaded() const { return loaded_; }
 
  private:
-  // A layer's blocks, in the order of their rows, and their voxels.
-  struct Layer {
-    LayerRow row;
-    std::vector<BlockIndex> blocks;
-    std::vector<int> states;
-    std::string voxels;
-  };
+  void readSubmap(const Database& database, DatabaseReader& reader, uint32_t submap,
+                  const std::vector<LayerRow>& layers);
+  // The row of another layer of a group of these blocks: cleared ones where the map does not have the layer.
+  std::string otherRow(const Database& database, DatabaseReader& reader, uint32_t submap, const LayerRow& layer,
+                       const BlockIndex& index, const std::vector<BlockIndex>& blocks) const;
+  void checkSubmaps(const std::string& name) const;
 
-  void readLayer(const Database& database, DatabaseReader& reader, const LayerRow& row, int block_size);
-  void checkRoom(const BlockMap& map, const std::string& name) const;
-
+  int block_size_;
   LoadedMap loaded_;
-  Window window_;
-  std::vector<Layer> layers_;  // those that both maps have, the TSDF first
+  std::unique_ptr<BlockStore> store_;
 };
 
 }  // namespace depth_fusion

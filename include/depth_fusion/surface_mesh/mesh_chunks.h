@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <unordered_set>
 #include <vector>
@@ -32,6 +33,12 @@ class MeshChunks {
   MeshChunks(ComputeContext& compute, BlockMap& map, const SurfaceMeshParameters& parameters = {},
              int blocks_per_axis = 16);
   ~MeshChunks();
+
+  // Gives a map that has the blocks of a box, and those about it, where the map that is followed does not have all
+  // that there are; null where it has.
+  using Elsewhere = std::function<BlockMap*(const BlockBox& box)>;
+  // Chunks of which a part is elsewhere are extracted from there, always from the same map.
+  void lookElsewhere(Elsewhere elsewhere) { elsewhere_ = std::move(elsewhere); }
 
   // Takes note of what changed in the map since the last call. After a reset of the map all chunks are
   // forgotten; none is reported as gone.
@@ -73,13 +80,19 @@ class MeshChunks {
   void forgetAll();
   // The next chunks to be extracted, with their blocks.
   std::vector<Extraction> takeExtractions(size_t max_count);
-  TriangleMesh extract(Extraction& extraction);
+  // The surface of the chunk's blocks, which are in the map that the kernels read.
+  TriangleMesh extract(SurfaceMeshKernels& kernels, const BlockMap& map, Extraction& extraction) const;
+  TriangleMesh extractFrom(BlockMap& map, const MeshChunkIndex& chunk);
+  BlockBox boxOf(const MeshChunkIndex& chunk) const;
 
+  ComputeContext& compute_;
   BlockMap& map_;
+  SurfaceMeshParameters parameters_;
+  Elsewhere elsewhere_;
   MapSubscription changes_;
   uint32_t generation_ = 0;
   int blocks_per_axis_;
-  std::unique_ptr<SurfaceMeshKernels> kernels_;
+  std::unique_ptr<SurfaceMeshKernels> kernels_, kernels_elsewhere_;  // the latter when they are needed
   std::deque<MeshChunkIndex> changed_;  // in the order of their first change
   ChunkSet is_changed_;
   ChunkSet has_surface_;                 // as reported last

@@ -132,6 +132,7 @@ struct BlockCounting::Frames : BlockCounting::Surface {
     parameters.map = row.map;
     parameters.map.pool_mib = poolMebibytes(row);
     std::unique_ptr<BlockMap> map;
+    std::unique_ptr<SubmapCollection> submaps;
     std::unique_ptr<Mapper> mapper;
     MotionModel motion;
     std::unique_ptr<DepthPreprocessor> preprocessor;
@@ -141,13 +142,14 @@ struct BlockCounting::Frames : BlockCounting::Surface {
         [&](const RgbdFrame& frame, const Pose& T_W_D) {
           if (!map) {
             map = std::make_unique<BlockMap>(compute, parameters.map);
-            mapper = std::make_unique<Mapper>(compute, *map, parameters, frame.intrinsics);
+            submaps = std::make_unique<SubmapCollection>(*map, parameters.submaps);
+            mapper = std::make_unique<Mapper>(compute, *map, *submaps, parameters, frame.intrinsics);
             preprocessor = preprocessorOf(frame, compute, parameters);
           }
           const DepthFrame& depth = preprocessor->process(frame, motion.moveTo(frame.stamp_s, T_W_D), timers);
-          mapper->fuse(frame, depth, T_W_D, timers);
+          mapper->fuse(frame, depth, T_W_D, true, timers);
         });
-    setBlocks(row, map->usage().blocks);
+    setBlocks(row, submaps->blockCount());
   }
 
   void track() {

@@ -18,7 +18,7 @@
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/registration/registered_recording.h"
 #include "depth_fusion/surface_mesh/ply.h"
-#include "depth_fusion/surface_mesh/surface_mesh.h"
+#include "depth_fusion/submaps/world_mesh.h"
 #include "ros/bags/open_recording.h"
 
 namespace depth_fusion {
@@ -147,9 +147,9 @@ void Run::buildPipeline(const CameraIntrinsics& camera) {
 
 void Run::loadMap() {
   const LoadedMap loaded = pipeline_->load(*options_.stored);
-  if (options_.map == options_.continued) saver_->adopt(pipeline_->map(), loaded);
+  if (options_.map == options_.continued) saver_->adopt(pipeline_->submaps(), loaded);
   is_searched_for_ = true;
-  std::cout << "map: " << pipeline_->map().usage().blocks << " blocks and " << loaded.keyframes.size()
+  std::cout << "map: " << pipeline_->submaps().blockCount() << " blocks and " << loaded.keyframes.size()
             << " keyframes of " << options_.stored->name() << std::endl;
 }
 
@@ -300,8 +300,9 @@ void Run::writeResults() {
 void Run::writeMesh(const std::string& path) {
   const StageTimers::Scope timer(pipeline_->timers(), "surface_mesh");
   PlyWriter writer(path);
+  WorldSnapshot world(pipeline_->submaps());
   const MeshStatistics mesh =
-      exportSurfaceMesh(compute_, pipeline_->map(), writer, options_.parameters.surface_mesh);
+      exportWorldMesh(compute_, world, writer, options_.parameters.surface_mesh, world.hasColor());
   std::cout << path << ": " << mesh.size.vertices << " vertices, " << mesh.size.triangles << " triangles"
             << std::endl;
 }

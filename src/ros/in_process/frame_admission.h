@@ -30,6 +30,8 @@ class FrameAdmission {
   FrameAdmission(bool external, uint32_t first_generation)
       : external_(external), first_generation_(first_generation) {}
 
+  bool isExternal() const { return external_; }
+
   // `resets_on_jump`: a clock that jumps back empties the map, if the poses come from elsewhere. Otherwise
   // the tracker decides which frame begins the map.
   Admission admit(const TrackedFrame& frame, const MapState& map, bool resets_on_jump);

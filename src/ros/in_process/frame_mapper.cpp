@@ -50,7 +50,7 @@ MappingOutcome FrameMapper::fuse(const TrackedFrame& frame, FusedMap& map, Stage
   const DepthFrame& depth =
       frame.depth ? *frame.depth : preprocessor_->process(rgbd, motion_.moveTo(rgbd.stamp_s, T_W_D), timers);
   map.noteCameraPosition(T_W_D.translation());
-  const MappingResult result = map.mapper(camera_).fuse(rgbd, depth, T_W_D, timers);
+  const MappingResult result = map.mapper(camera_).fuse(rgbd, depth, T_W_D, admission_.isExternal(), timers);
   if (!result.fusion.fused()) return {false, false, notFusedReason()};
   last_pose_ = {rgbd.stamp_s, T_W_D};
   return {true, true, leftOutReason(result), result.fusion.blocks_requested - result.fusion.blocks_allocated};
@@ -62,7 +62,7 @@ void FrameMapper::render(const TrackedFrame& frame, FusedMap& map, StageTimers& 
   view_ = mapper.renderer().view();
 }
 
-void FrameMapper::load(FusedMap& map, const ReadMap& stored, const std::string& name, const MapReset& reset) {
+void FrameMapper::load(FusedMap& map, ReadMap& stored, const std::string& name, const MapReset& reset) {
   const MapDescription& description = stored.loaded().description;
   map.load(stored, name);
   admission_.noteReset(reset);

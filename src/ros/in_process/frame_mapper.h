@@ -37,7 +37,7 @@ class FrameMapper {
   ModelViewRenderer& renderer(FusedMap& map) const { return map.mapper(camera_).renderer(); }
   // Takes in a stored map by a call: frames from before are refused from now on. Throws Error as FusedMap
   // does.
-  void load(FusedMap& map, const ReadMap& stored, const std::string& name, const MapReset& reset);
+  void load(FusedMap& map, ReadMap& stored, const std::string& name, const MapReset& reset);
   // What is stored of the map beside its contents.
   MapDescription describe(FusedMap& map) const;
   // Empties the map by a call: frames from before are refused from now on.

@@ -36,15 +36,15 @@ void FusedMap::reset() {
   mapper_.reset();
 }
 
-void FusedMap::load(const ReadMap& stored, const std::string& name) {
+void FusedMap::load(ReadMap& stored, const std::string& name) {
   checkFilterRule(stored.loaded().description, parameters_, name);
-  stored.moveTo(map_);
+  stored.moveTo(submaps_);
   mapper_.reset();
 }
 
 Mapper& FusedMap::mapper(const CameraIntrinsics& camera) {
   if (mapper_ == nullptr || !sameCamera(camera, camera_)) {
-    mapper_ = std::make_unique<Mapper>(compute_, map_, parameters_, camera);
+    mapper_ = std::make_unique<Mapper>(compute_, map_, submaps_, parameters_, camera);
     camera_ = camera;
   }
   return *mapper_;

@@ -18,9 +18,11 @@ std::shared_ptr<ComputeContext> sharedCompute(const std::string& device);
 class FusedMap {
  public:
   FusedMap(ComputeContext& compute, const PipelineParameters& parameters)
-      : compute_(compute), parameters_(parameters), map_(compute, parameters.map) {}
+      : compute_(compute), parameters_(parameters), map_(compute, parameters.map), submaps_(map_, parameters.submaps) {}
 
+  // The part of it that is in the pool.
   BlockMap& map() { return map_; }
+  SubmapCollection& submaps() { return submaps_; }
   // The mapper for frames of that camera, until the next call or reset(). Throws Error if the device cannot.
   Mapper& mapper(const CameraIntrinsics& camera);
   // Where the camera was when the last frame was fused; the origin of a map without frames.
@@ -30,7 +32,7 @@ class FusedMap {
   void reset();
   // Takes in a stored map in place of what there is. Throws Error, and changes nothing, if it was filtered by
   // another rule.
-  void load(const ReadMap& stored, const std::string& name);
+  void load(ReadMap& stored, const std::string& name);
   // The parameters are for the frames to come; the map's stay. Throws Error for what cannot change.
   void setParameters(const PipelineParameters& parameters);
 
@@ -38,6 +40,7 @@ class FusedMap {
   ComputeContext& compute_;
   PipelineParameters parameters_;
   BlockMap map_;
+  SubmapCollection submaps_;
   CameraIntrinsics camera_;
   Eigen::Vector3d camera_W_ = Eigen::Vector3d::Zero();
   std::unique_ptr<Mapper> mapper_;

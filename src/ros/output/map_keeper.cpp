@@ -102,9 +102,9 @@ std::optional<SaveReport> MapKeeper::save(const std::string& place, bool only_ch
   saver_->prepare();
   uint32_t generation = 0;
   map_->locked([&](FusedMap& fused) {
-    check(fused.map().slots().used() > 0, "the map is empty; nothing was saved");
+    check(fused.submaps().blockCount() > 0, "the map is empty; nothing was saved");
     generation = fused.map().generation();
-    saver_->capture(fused.map(), mapper_.describe(fused), map_->keyframesOf(generation));
+    saver_->capture(fused.submaps(), mapper_.describe(fused), map_->keyframesOf(generation));
   });
   if (only_changes && !saver_->hasChanges()) return std::nullopt;
   const SaveReport saved = saver_->write();
@@ -115,14 +115,14 @@ std::optional<SaveReport> MapKeeper::save(const std::string& place, bool only_ch
 LoadedMap MapKeeper::load(const std::string& place, Database& stored, bool read_only) {
   auto saver = std::make_unique<MapSaver>(place);
   // Its parameters and its pool are the same at all times.
-  const BlockMap* map = map_->locked([](FusedMap& fused) { return &fused.map(); });
-  const ReadMap read(stored, *map);
+  const SubmapCollection* submaps = map_->locked([](FusedMap& fused) { return &fused.submaps(); });
+  ReadMap read(stored, *submaps);
   const LoadedMap& loaded = read.loaded();
   map_->locked([&](FusedMap& fused) {
     mapper_.load(fused, read, stored.name(), {ros::WallTime::now(), ros::Time::now()});
     const uint32_t generation = fused.map().generation();
     map_->keepKeyframes(generation, loaded.keyframes);
-    saver->adopt(fused.map(), loaded);
+    saver->adopt(fused.submaps(), loaded);
     mapper_.admission().setMode(read_only ? MapMode::kLocalisation : MapMode::kMapping);
     if (isKeptAt(place) && !read_only) kept_generation_ = generation;
     const std::string news = describe(loaded, stored.name(), read_only);
@@ -148,7 +148,7 @@ void MapKeeper::saveKept() {
 
 bool MapKeeper::isKept() {
   const auto [generation, is_empty] = map_->locked([](FusedMap& fused) {
-    return std::make_pair(fused.map().generation(), fused.map().slots().used() == 0);
+    return std::make_pair(fused.map().generation(), fused.submaps().blockCount() == 0);
   });
   if (kept_generation_ != 0 && generation != kept_generation_) {
     kept_generation_ = 0;
@@ -166,7 +166,7 @@ bool MapKeeper::serveSave(SaveMap::Request& request, SaveMap::Response& response
     response.success = true;
     response.message = describe(saved);
     response.bytes = saved.bytes;
-    response.submaps = 1;
+    response.submaps = saved.submaps;
     note("", response.message);
   } catch (const std::exception& error) {
     response.message = error.what();

@@ -106,7 +106,7 @@ TEST_F(MapFile, ALoadedMapGoesOn) {
   BlockMap other(compute(), smallMap());
   const LoadedMap loaded = load(path_, other);
   MapSaver saver(path_);
-  saver.adopt(other, loaded);
+  adopt(saver, other, loaded);
   EXPECT_EQ(save(saver, other, loaded.keyframes).blocks_written, 0u);
   ChangingMap(compute(), other).show(sphere({0.0, 0.0, 0.0}, 0.14));
   save(saver, other, loaded.keyframes);
@@ -127,8 +127,7 @@ TEST_F(MapFile, WhatAnotherSaverWroteIsNotMixed) {
       << "all of it, for the place has another map";
   // It comes between the copy and the writing.
   changing_.show(sphere({0.0, 0.0, 0.0}, 0.13));
-  mine.prepare();
-  mine.capture(map_, describing(map_), {});
+  capture(mine, map_);
   save(theirs, other);
   expectError([&] { mine.write(); }, {path_, "holds another map by now"});
   save(mine, map_);
@@ -199,18 +198,6 @@ TEST_F(MapFile, MapsThatDoNotFitAreRefusedAndNothingIsLost) {
   parameters = smallMap();
   parameters.block_size = 4;
   refuses(parameters, {"map/block_size", "set it to 8"});
-  map_.insert({{10, 10, 10}, {-10, -10, -10}});
-  save(saver, map_);
-  parameters = smallMap();
-  parameters.blocks_per_axis = 16;
-  refuses(parameters, {"ball.map", "map/blocks_per_axis"});
-  std::vector<BlockIndex> many;
-  for (int i = 0; i < 1100; ++i) many.emplace_back(i % 16 - 8, i / 16 % 16 - 8, 5 + i / 256);
-  map_.insert(many);
-  save(saver, map_);
-  parameters = smallMap();
-  parameters.pool_mib = 1;
-  refuses(parameters, {"ball.map", std::to_string(map_.slots().used()) + " blocks", "map/pool_mib to 2"});
 }
 
 TEST_F(MapFile, AMapComesBackIntoAWindowOfAnotherSize) {
@@ -262,7 +249,7 @@ TEST_F(MapFile, AMapGoesOnWithAnotherChoiceOfLayers) {
     BlockMap second(compute(), color_first ? smallMap() : with_color);
     const LoadedMap loaded = load(path, second);
     MapSaver saver(path);
-    saver.adopt(second, loaded);
+    adopt(saver, second, loaded);
     ChangingMap(compute(), second).show(sphere({0.02, 0.0, 0.0}, 0.14));
     save(saver, second, loaded.keyframes);
     BlockMap third(compute(), with_color);
@@ -277,8 +264,7 @@ TEST_F(MapFile, WhatHasNotChangedNeedNoSave) {
   MapSaver saver(path_);
   save(saver, map_, keyframes);
   const auto changesWith = [&](const Keyframes& now) {
-    saver.prepare();
-    saver.capture(map_, describing(map_), now);
+    capture(saver, map_, now);
     return saver.hasChanges();
   };
   EXPECT_FALSE(changesWith(keyframes));

@@ -24,6 +24,8 @@ MapDescription someDescription() {
   description.camera = {640, 480, 525.0, 526.0, 319.5, 239.5};
   description.last_pose.stamp_s = 17.25;
   description.last_pose.T_W_D = poseFromTwist((Vector6d() << 0.1, -0.2, 0.3, 1.0, 2.0, 3.0).finished());
+  description.way_m = 123.5;
+  description.active_submap = 3;
   description.layers = {"tsdf", "color"};
   return description;
 }
@@ -39,19 +41,22 @@ TEST(Rows, ADescriptionComesBack) {
   EXPECT_TRUE(sameCamera(after.camera, before.camera));
   EXPECT_EQ(after.last_pose.stamp_s, before.last_pose.stamp_s);
   EXPECT_EQ(after.last_pose.T_W_D.matrix(), before.last_pose.T_W_D.matrix());
+  EXPECT_EQ(after.way_m, before.way_m);
+  EXPECT_EQ(after.active_submap, before.active_submap);
   EXPECT_EQ(after.layers, before.layers);
   EXPECT_EQ(after.parameter("map/voxel_size_m"), "0.005");
   expectError([&] { after.parameter("map/none"); }, {"map/none"});
 }
 
 TEST(Rows, ASubmapComesBack) {
-  SubmapDescription before{7, someDescription().last_pose.T_W_D, {{-5, 6, -7}, 256}, 1234567890123};
+  SubmapDescription before{7, someDescription().last_pose.T_W_D, {{-5, 6, -7}, 256}, 1234567890123, 12.5};
   const SubmapDescription after = parseSubmap(submapRow(before), "row");
   EXPECT_EQ(after.id, 7u);
   EXPECT_EQ(after.T_W_S.matrix(), before.T_W_S.matrix());
   EXPECT_EQ(after.window.origin, before.window.origin);
   EXPECT_EQ(after.window.blocks_per_axis, 256);
   EXPECT_EQ(after.blocks, before.blocks);
+  EXPECT_EQ(after.left_at_m, 12.5);
 }
 
 TEST(Rows, AnotherVersionIsRefusedByName) {

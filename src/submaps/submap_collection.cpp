@@ -1,0 +1,139 @@
+#include "depth_fusion/submaps/submap_collection.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "depth_fusion/common/error.h"
+#include "map/view_volume.h"
+#include "submaps/block_store.h"
+
+namespace depth_fusion {
+
+SubmapCollection::SubmapCollection(BlockMap& map, const SubmapParameters& parameters)
+    : map_(map),
+      parameters_(parameters),
+      layers_(layersOf(map.parameters())),
+      edge_(groupEdge(map.parameters().block_size)),
+      block_m_(static_cast<double>(map.parameters().voxel_size_m) * map.parameters().block_size),
+      generation_(map.generation()),
+      store_(std::make_unique<BlockStore>(parameters, layers_, map.parameters().block_size)) {
+  validate(parameters_.table());
+  begin(map_.window());
+  map_.bringBackBy(
+      [this](std::vector<BlockIndex>& requested) { return bringBackRequested(requested); });
+}
+
+SubmapCollection::~SubmapCollection() { map_.bringBackBy(nullptr); }
+
+void SubmapCollection::follow() {
+  if (map_.generation() == generation_) return;
+  generation_ = map_.generation();
+  submaps_.clear();
+  absent_.clear();
+  ahead_.clear();
+  sensor_W_.reset();
+  way_m_ = length_m_ = 0.0;
+  store_->clear();
+  begin(map_.window());
+}
+
+void SubmapCollection::enter(const Pose& T_W_D, bool is_given) {
+  follow();
+  const Eigen::Vector3d p_W = T_W_D.translation();
+  if (submaps_.size() == 1 && blockCount() == 0) submaps_.front().window = map_.window();
+  if (sensor_W_) {
+    const double step_m = (p_W - *sensor_W_).norm();
+    length_m_ += step_m;
+    if (!is_given) way_m_ += step_m;
+  }
+  sensor_W_ = p_W;
+  const BlockIndex block = (p_W / block_m_).array().floor().cast<int>();
+  const bool is_inside = submaps_[active_].window.contains(block);
+  const bool is_long = parameters_.max_length_m > 0.0f && length_m_ > parameters_.max_length_m;
+  if (is_inside && !is_long) return;
+  const std::optional<uint32_t> next = is_inside ? std::nullopt : submapAbout(p_W);
+  next ? activate(*next) : begin(Window::centredOn(p_W, block_m_, map_.window().blocks_per_axis));
+}
+
+void SubmapCollection::begin(const Window& window) {
+  submaps_.push_back({window, 0.0, {}});
+  activate(static_cast<uint32_t>(submaps_.size() - 1));
+}
+
+void SubmapCollection::activate(uint32_t submap) {
+  if (active_ < submaps_.size()) submaps_[active_].left_at_m = way_m_;
+  active_ = submap;
+  length_m_ = 0.0;
+  listAbsent();
+}
+
+bool SubmapCollection::isSure(uint32_t submap) const {
+  return submap == active_ ||
+         static_cast<double>(parameters_.drift) * (way_m_ - submaps_[submap].left_at_m) <=
+             static_cast<double>(parameters_.sure_m);
+}
+
+std::optional<uint32_t> SubmapCollection::submapAbout(const Eigen::Vector3d& p_W) const {
+  const BlockIndex block = (p_W / block_m_).array().floor().cast<int>();
+  std::optional<uint32_t> nearest;
+  int least_blocks = 0;
+  for (uint32_t i = 0; i < submaps_.size(); ++i) {
+    const Window& window = submaps_[i].window;
+    if (i == active_ || !isSure(i) || !window.contains(block)) continue;
+    const BlockIndex from_middle = block - window.origin - BlockIndex::Constant(window.blocks_per_axis / 2);
+    const int blocks = from_middle.cwiseAbs().maxCoeff();
+    if (nearest && blocks >= least_blocks) continue;
+    nearest = i;
+    least_blocks = blocks;
+  }
+  return nearest;
+}
+
+void SubmapCollection::adopt(const MapDescription& description, std::vector<GroupSizes> stored,
+                             std::unique_ptr<BlockStore> store, const Window& window) {
+  map_.resetAt(window.origin);
+  follow();
+  submaps_.clear();
+  store_ = std::move(store);
+  for (size_t i = 0; i < stored.size(); ++i) {
+    const SubmapDescription& submap = description.submaps[i];
+    submaps_.push_back({submap.window, submap.left_at_m, std::move(stored[i])});
+  }
+  active_ = description.active_submap;
+  way_m_ = description.way_m;
+  listAbsent();
+  bringBackNear(description.last_pose.T_W_D.translation());
+}
+
+std::vector<SubmapDescription> SubmapCollection::submaps() const {
+  std::vector<SubmapDescription> descriptions;
+  for (uint32_t i = 0; i < submaps_.size(); ++i) {
+    uint64_t blocks = i == active_ ? map_.slots().used() : 0;
+    for (const auto& [group, count] : submaps_[i].stored) blocks += count;
+    descriptions.push_back({i, Pose::Identity(), submaps_[i].window, blocks, submaps_[i].left_at_m});
+  }
+  return descriptions;
+}
+
+bool SubmapCollection::isInPool(const BlockBox& box) const {
+  const BlockIndex first = groupOf(box.min(), edge_).array() - 1, last = groupOf(box.max(), edge_).array() + 1;
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (int x = first.x(); x <= last.x(); ++x) {
+        const auto has = [&](const Submap& submap) { return submap.stored.count({x, y, z}) > 0; };
+        if (std::any_of(submaps_.begin(), submaps_.end(), has)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+size_t SubmapCollection::blockCount() const {
+  size_t blocks = 0;
+  for (const SubmapDescription& submap : submaps()) blocks += submap.blocks;
+  return blocks;
+}
+
+StoreUsage SubmapCollection::usage() const { return store_->usage(); }
+
+}  // namespace depth_fusion

@@ -1,0 +1,250 @@
+// Between the pool and the store.
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/submaps/submap_collection.h"
+#include "map/view_volume.h"
+#include "submaps/block_store.h"
+#include "submaps/pool_groups.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr double kAhead_m = 1.0;  // beyond the view, from where on groups are read ahead
+
+// The greatest multiple of the edge that is not above the number.
+int alignedDown(int number, int edge) { return (number >= 0 ? number : number - edge + 1) / edge * edge; }
+
+// Where, along an axis, a window of n blocks begins that has the blocks from `first` to `last` inside and lies
+// on the grid of groups.
+int movedAlong(int origin, int n, int first, int last, int edge) {
+  const bool fits = last - first + 1 + 2 * edge <= n;
+  if (!fits) {
+    // The window is smaller than the view: it has the view's middle in its own.
+    const int middle = alignedDown((first + last + 1 - n) / 2, edge);
+    return std::abs(middle - origin) > n / 4 ? middle : origin;
+  }
+  if (first < origin) return alignedDown(first - edge, edge);
+  if (last >= origin + n) return alignedDown(last + 1 - n + 2 * edge - 1, edge);
+  const int below = alignedDown(origin, edge);
+  return last < below + n ? below : alignedDown(origin + edge - 1, edge);
+}
+
+}  // namespace
+
+void SubmapCollection::show(const CameraIntrinsics& camera, const Pose& T_W_D, double max_range_m) {
+  follow();
+  problem_.clear();
+  view_ = std::make_unique<ViewVolume>(camera, T_W_D.inverse(), max_range_m);
+  moveWindow();
+  const size_t capacity = map_.slots().capacity();
+  if (map_.slots().free() < capacity / 16) makeRoom(capacity / 8);
+  bringBackSeen();
+}
+
+void SubmapCollection::moveWindow() {
+  const Window& window = map_.window();
+  const BlockIndex first = (view_->box().min() / block_m_).array().floor().cast<int>() - 1;
+  const BlockIndex last = (view_->box().max() / block_m_).array().floor().cast<int>() + 1;
+  if (window.contains(first) && window.contains(last)) return;
+  Window moved = window;
+  for (int axis = 0; axis < 3; ++axis)
+    moved.origin[axis] =
+        movedAlong(window.origin[axis], window.blocks_per_axis, first[axis], last[axis], edge_);
+  if (moved.origin == window.origin) return;
+  std::vector<int> outside;
+  for (int slot = 0; slot < map_.slots().bound(); ++slot) {
+    if (map_.slots().inUse(slot) && !moved.contains(map_.slots().blockOf(slot))) outside.push_back(slot);
+  }
+  if (!evict(outside)) return;
+  map_.moveWindow(moved.origin);
+  listAbsent();
+}
+
+bool SubmapCollection::evict(const std::vector<int>& slots) {
+  if (slots.empty()) return true;
+  if (!store_->hasRoom()) {
+    problem_ = "what the sensor has left behind cannot be stored (" + store_->usage().problem +
+               "), and its memory is full: new surface is left out";
+    return false;
+  }
+  for (auto& [group, blocks] : groupsIn(map_, layers_, slots)) store(group, std::move(blocks));
+  map_.evict(slots);
+  return true;
+}
+
+void SubmapCollection::store(const BlockIndex& group, BlockGroups blocks) {
+  for (uint32_t i = 0; i < submaps_.size(); ++i) {
+    const auto other_part = submaps_[i].stored.find(group);
+    if (!isSure(i) || other_part == submaps_[i].stored.end()) continue;
+    const BlockStore::GroupPtr other = store_->take({i, group});
+    blocks = joined(blocks, *other);
+    submaps_[i].stored.erase(other_part);
+  }
+  submaps_[active_].stored[group] = blocks.front().blocks.size();
+  store_->put({active_, group}, std::move(blocks));
+  absent_[group] = active_;
+}
+
+void SubmapCollection::makeRoom(size_t slots) {
+  if (map_.slots().free() >= slots || view_ == nullptr) return;
+  struct Candidate {
+    double distance_m;
+    BlockIndex group;
+    std::vector<int> slots;
+  };
+  std::map<BlockIndex, Candidate, BlockOrder> groups;
+  for (const SlotTable::Block& block : map_.slots().blocks()) {
+    Candidate& candidate = groups[groupOf(block.index, edge_)];
+    candidate.slots.push_back(block.slot);
+  }
+  std::vector<Candidate> hidden;
+  for (auto& [index, candidate] : groups) {
+    if (!isSeen(index)) hidden.push_back({distance_m(index, view_->box().center()), index, std::move(candidate.slots)});
+  }
+  std::sort(hidden.begin(), hidden.end(),
+            [](const Candidate& a, const Candidate& b) { return a.distance_m > b.distance_m; });
+  std::vector<int> evicted;
+  for (const Candidate& candidate : hidden) {
+    if (map_.slots().free() + evicted.size() >= slots) break;
+    evicted.insert(evicted.end(), candidate.slots.begin(), candidate.slots.end());
+  }
+  evict(evicted);
+}
+
+void SubmapCollection::bringBackSeen() {
+  if (absent_.empty()) return;
+  std::vector<BlockIndex> seen;
+  std::vector<GroupKey> ahead;
+  const Eigen::AlignedBox3d box = view_->box();
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kAhead_m);
+  const Eigen::AlignedBox3d near(box.min() - margin, box.max() + margin);
+  const double edge_m = block_m_ * edge_;
+  for (const auto& [group, submap] : absent_) {
+    if (isSeen(group)) {
+      seen.push_back(group);
+    } else if (near.contains(edge_m * (group.cast<double>().array() + 0.5).matrix()) &&
+               ahead_.insert(group).second) {
+      ahead.push_back({submap, group});
+    }
+  }
+  if (!ahead.empty()) store_->readAhead(ahead);
+  bringBack(seen);
+}
+
+void SubmapCollection::bringBackNear(const Eigen::Vector3d& p_W) {
+  std::vector<std::pair<double, BlockIndex>> near;
+  for (const auto& [group, submap] : absent_) near.emplace_back(distance_m(group, p_W), group);
+  std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<BlockIndex> groups;
+  size_t room = map_.slots().capacity() - map_.slots().capacity() / 8;
+  for (const auto& [distance, group] : near) {
+    const size_t blocks = submaps_[absent_.at(group)].stored.at(group);
+    if (blocks > room) break;
+    room -= blocks;
+    groups.push_back(group);
+  }
+  bringBack(groups);
+}
+
+SubmapCollection::BlockSet SubmapCollection::bringBack(const std::vector<BlockIndex>& groups) {
+  size_t needed = 0;
+  for (const BlockIndex& group : groups) needed += submaps_[absent_.at(group)].stored.at(group);
+  makeRoom(needed);
+  BlockGroups all(layers_.size());
+  size_t room = map_.slots().free();
+  for (const BlockIndex& group : groups) {
+    if (submaps_[absent_.at(group)].stored.at(group) > room) {
+      problem_ = "the pool is too small for what is in view; raise map/pool_mib or map/voxel_size_m";
+      continue;
+    }
+    try {
+      const BlockGroups part = takeFromStore(group);
+      room -= part.front().blocks.size();
+      for (size_t i = 0; i < all.size(); ++i) {
+        all[i].blocks.insert(all[i].blocks.end(), part[i].blocks.begin(), part[i].blocks.end());
+        all[i].states.insert(all[i].states.end(), part[i].states.begin(), part[i].states.end());
+        all[i].voxels += part[i].voxels;
+      }
+    } catch (const Error& error) {
+      problem_ = std::string("stored surface is missing here: ") + error.what();
+    }
+  }
+  const std::vector<BlockIndex>& blocks = all.front().blocks;
+  if (blocks.empty()) return {};
+  const std::vector<int> slots = map_.insert(blocks);
+  map_.setStates(slots, all.front().states);
+  for (size_t i = 0; i < layers_.size(); ++i) map_.setVoxels(layers_[i].name, slots, all[i].voxels);
+  return {blocks.begin(), blocks.end()};
+}
+
+SubmapCollection::BlockGroups SubmapCollection::takeFromStore(const BlockIndex& group) {
+  const uint32_t submap = absent_.at(group);
+  const BlockStore::GroupPtr stored = store_->take({submap, group});
+  submaps_[submap].stored.erase(group);
+  absent_.erase(group);
+  ahead_.erase(group);
+  BlockGroups outside = partOf(*stored, map_.window(), false);
+  if (const size_t rest = outside.front().blocks.size(); rest > 0) {
+    submaps_[submap].stored[group] = rest;
+    store_->put({submap, group}, std::move(outside));
+  }
+  return partOf(*stored, map_.window(), true);
+}
+
+std::vector<BlockIndex> SubmapCollection::bringBackRequested(std::vector<BlockIndex>& requested) {
+  if (absent_.empty()) return {};
+  BlockSet groups;
+  for (const BlockIndex& block : requested) {
+    const BlockIndex group = groupOf(block, edge_);
+    if (absent_.count(group) > 0) groups.insert(group);
+  }
+  if (groups.empty()) return {};
+  const BlockSet brought = bringBack({groups.begin(), groups.end()});
+  std::vector<BlockIndex> to_make, away;
+  for (const BlockIndex& block : requested) {
+    if (brought.count(block) > 0) continue;
+    (absent_.count(groupOf(block, edge_)) > 0 ? away : to_make).push_back(block);
+  }
+  requested = std::move(to_make);
+  return away;
+}
+
+void SubmapCollection::listAbsent() {
+  absent_.clear();
+  ahead_.clear();
+  const Window& window = map_.window();
+  const BlockIndex first = groupOf(window.origin, edge_);
+  const BlockIndex last = groupOf(window.origin.array() + window.blocks_per_axis - 1, edge_);
+  constexpr int kLeast = std::numeric_limits<int>::min();
+  for (uint32_t i = 0; i < submaps_.size(); ++i) {
+    if (!isSure(i)) continue;
+    const GroupSizes& stored = submaps_[i].stored;
+    for (auto entry = stored.lower_bound({kLeast, kLeast, first.z()}); entry != stored.end(); ++entry) {
+      const BlockIndex& group = entry->first;
+      if (group.z() > last.z()) break;
+      if ((group.array() >= first.array()).all() && (group.array() <= last.array()).all()) absent_[group] = i;
+    }
+  }
+}
+
+bool SubmapCollection::isSeen(const BlockIndex& group) const {
+  const double edge_m = block_m_ * edge_;
+  const Eigen::Vector3d centre_W = edge_m * (group.cast<double>().array() + 0.5).matrix();
+  return view_->meets(centre_W, Eigen::Vector3d::Constant(0.5 * edge_m + block_m_));
+}
+
+double SubmapCollection::distance_m(const BlockIndex& group, const Eigen::Vector3d& p_W) const {
+  return (block_m_ * edge_ * (group.cast<double>().array() + 0.5).matrix() - p_W).norm();
+}
+
+std::string SubmapCollection::problem() const {
+  const std::string store_problem = store_->usage().problem;
+  if (!problem_.empty() || store_problem.empty()) return problem_;
+  return "what the sensor has left behind stays in memory: " + store_problem;
+}
+
+}  // namespace depth_fusion
