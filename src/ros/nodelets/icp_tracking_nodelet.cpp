@@ -96,6 +96,7 @@ void IcpTrackingNodelet::subscribe() {
 void IcpTrackingNodelet::applyParameters() {
   const PipelineParameters& pipeline = parameters_.tracker.pipeline;
   validateRange(pipeline.preprocessing, pipeline.depth_sensor);
+  parameters_.rgbd.checkTransports();
   if (tracker_ != nullptr) tracker_->applyParameters();
   if (sensor_subscriber_ != nullptr) sensor_subscriber_->setParameters(parameters_.rgbd);
 }

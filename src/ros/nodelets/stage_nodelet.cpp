@@ -34,14 +34,15 @@ void StageNodelet::onInit() {
 }
 
 void StageNodelet::loadParameters(const ParameterTable& own,
-                                  const std::vector<std::pair<std::string, ParameterTable>>& stages) {
+                                  const std::vector<std::pair<std::string, ParameterTable>>& stages,
+                                  const std::string& foreign) {
   parameter_groups_ = {{"", getMTPrivateNodeHandle(), own}};
   for (const auto& [name, table] : stages) {
     parameter_groups_.push_back({name, ros::NodeHandle(getMTNodeHandle(), name), table});
   }
   default_parameters_ = makeConfig(parameter_groups_);
   for (const ParameterGroup& group : parameter_groups_)
-    depth_fusion::loadParameters(group.handle, group.table);
+    depth_fusion::loadParameters(group.handle, group.table, group.name.empty() ? foreign : "");
   applyParameters();
 }
 

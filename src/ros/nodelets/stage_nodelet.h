@@ -34,10 +34,11 @@ class StageNodelet : public nodelet::Nodelet {
   virtual void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) = 0;
 
   // Fills the rows from the parameter server: the nodelet's own from its private namespace, those of the
-  // stages, which it may share with other nodelets, from the namespaces beside. Throws Error for what is
-  // unknown or does not fit.
+  // stages, which it may share with other nodelets, from the namespaces beside. What stands below `foreign`
+  // in its private namespace is somebody else's. Throws Error for what is unknown or does not fit.
   void loadParameters(const ParameterTable& own,
-                      const std::vector<std::pair<std::string, ParameterTable>>& stages = {});
+                      const std::vector<std::pair<std::string, ParameterTable>>& stages = {},
+                      const std::string& foreign = "");
 
   // Subscribes what the nodelet `sender` of the same process publishes, frames or something else. What comes
   // from another process has no payload, so it is not taken: an error says what to do, and frames are counted

@@ -51,7 +51,8 @@ TsdfFusionNodelet::~TsdfFusionNodelet() {
 }
 
 void TsdfFusionNodelet::start() {
-  loadParameters(parameters_.table(), parameters_.stages());
+  // The transports of the model's picture have parameters, too.
+  loadParameters(parameters_.table(), parameters_.stages(), kModelPictureTopic);
   const PipelineParameters& pipeline = parameters_.pipeline;
   map_ = std::make_shared<SharedMap>(sharedCompute(parameters_.device), pipeline, parameters_.map_frame);
   mapper_ = std::make_unique<FrameMapper>(*map_, pipeline, parameters_.isExternal());
@@ -100,6 +101,7 @@ void TsdfFusionNodelet::subscribe() {
 
 void TsdfFusionNodelet::applyParameters() {
   validateRange(parameters_.pipeline.preprocessing, parameters_.pipeline.depth_sensor);
+  parameters_.rgbd.checkTransports();
   if (posed_subscriber_ != nullptr) posed_subscriber_->setParameters(parameters_.rgbd);
   if (map_ == nullptr) return;  // not started yet
   map_->locked([this](FusedMap& map) {
