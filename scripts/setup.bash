@@ -21,7 +21,7 @@ DEBIAN_PACKAGES=(
   ros-message-generation ros-message-runtime ros-std-msgs
   libroscpp-dev libroscpp-core-dev pluginlib-dev libnodelet-dev libnodeletlib-dev libnodeletlib-tools libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
-  libcamera-info-manager-dev libopenni2-dev
+  libcamera-info-manager-dev libimage-transport-dev libopenni2-dev
   librosbag-storage-dev libtf2-ros-dev libtf2-msgs-dev tf2-tools
   libstd-msgs-dev libsensor-msgs-dev libgeometry-msgs-dev libnav-msgs-dev libvisualization-msgs-dev libdiagnostic-msgs-dev
   libstd-srvs-dev libros-rosgraph-msgs-dev

@@ -71,7 +71,7 @@ TEST_F(RgbdSubscriberTest, FramesComeOneAtATimeInOrderEachWithItsColour) {
 
 // A driver that has just begun may have told the master of the compressed topic only.
 TEST_F(RgbdSubscriberTest, ACompressedTopicIsTakenIfTheRawOneDoesNotFollow) {
-  ImageTopic topic(graph_.handle(), "other/image", kAutoTransport, {"compressedDepth", "compressed"},
+  ImageTopic topic(graph_.handle(), "other/image", kAutoTransport, ownDepthTransports(),
                    {[](const ImageMessage&) {}, [](uint32_t) {}, [] {}});
   const std::string raw = graph_.resolve("other/image"), compressed = raw + "/compressedDepth";
   const auto look = [&](const std::vector<std::string>& names) {

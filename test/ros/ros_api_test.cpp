@@ -53,7 +53,10 @@ std::vector<Parameters> variantsOf(const std::string& nodelet, const std::string
   std::vector<Parameters> variants = transports;
   for (Parameters variant : transports) {
     if (nodelet == "icp_tracking") variant["texture_odometry"] = "false";
-    if (nodelet == "tsdf_fusion") variant["tracking"] = "external";
+    if (nodelet == "tsdf_fusion") {
+      variant["tracking"] = "external";
+      variant["view_frame"] = "view";
+    }
     variants.push_back(variant);
   }
   return nodelet == "surface_mesh" ? std::vector<Parameters>{{}} : variants;
@@ -81,6 +84,7 @@ Interface registered(const std::string& prefix) {
       const bool inside = name.compare(0, prefix.size(), prefix) == 0;
       for (int node = 0; node < state[kind][i][1].size(); ++node) {
         if (static_cast<std::string>(state[kind][i][1][node]) != ros::this_node::getName()) continue;
+        if (name.find("model_view/image/") != std::string::npos) continue;  // of plugins that are installed
         found.insert(kinds[kind] + " " + (inside ? name.substr(prefix.size()) : name) +
                      (kind < 2 ? " " + types[name] : ""));
       }

@@ -39,6 +39,13 @@ struct TexturedSensorFrame {
 using TexturedFramePtr = std::shared_ptr<const TexturedSensorFrame>;
 using TexturedFrameMessage = ProcessMessage<TexturedSensorFrame>;
 
+// The frame where there is no texture odometry; null for null.
+inline TexturedFramePtr withoutTexture(const SensorFramePtr& sensor) {
+  if (sensor == nullptr) return nullptr;
+  return std::make_shared<TexturedSensorFrame>(
+      TexturedSensorFrame{sensor, withoutTexture("no texture odometry"), nullptr});
+}
+
 // What travels on the topic icp_tracking/frame.
 struct TrackedFrame {
   SensorFramePtr sensor;

@@ -13,6 +13,10 @@
 
 namespace depth_fusion {
 
+// Length of the queues of topics between nodelets, which never fill: their callbacks only hand on what comes.
+// Frames wait, and are dropped and counted, in a nodelet's own queue of `queue_size`.
+constexpr uint32_t kProcessQueue = 100;
+
 // A message whose payload never leaves the process. To other processes it is its header (so that `rostopic
 // hz` works); what comes from them has no payload.
 template <class Payload>

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ros/input/published_topics.h"
+#include "ros/input/transport_plugin.h"
 
 namespace depth_fusion {
 namespace {
@@ -18,21 +19,15 @@ constexpr uint32_t kTopicQueue = 10;
 ImageMessage asImage(const sensor_msgs::ImageConstPtr& message) { return {message, nullptr}; }
 ImageMessage asImage(const sensor_msgs::CompressedImageConstPtr& message) { return {nullptr, message}; }
 
-std::vector<std::string> transportsOf(const std::string& transport,
-                                      const std::vector<std::string>& compressed) {
-  if (transport != kAutoTransport) return {transport};
-  std::vector<std::string> transports = {kRawTransport};
-  transports.insert(transports.end(), compressed.begin(), compressed.end());
-  return transports;
-}
-
 }  // namespace
 
 ImageTopic::ImageTopic(const ros::NodeHandle& handle, const std::string& image, const std::string& transport,
-                       const std::vector<std::string>& compressed, const Callbacks& callbacks)
+                       const std::vector<std::string>& own, const Callbacks& callbacks)
     : handle_(handle),
+      image_(image),
       base_name_(handle_.resolveName(image)),
-      transports_(transportsOf(transport, compressed)),
+      own_(own),
+      transports_(transport == kAutoTransport ? own_ : std::vector<std::string>{transport}),
       callbacks_(callbacks) {
   subscribe(transports_.front());
 }
@@ -50,26 +45,53 @@ void ImageTopic::lookAround(const PublishedTopics& published) {
 }
 
 void ImageTopic::subscribe(const std::string& transport) {
-  const std::string name = nameWith(transport);
-  const auto subscribed = [&](auto type) {
-    using Message = decltype(type);
-    const boost::function<void(const ros::MessageEvent<const Message>&)> receive_it =
-        [this](const ros::MessageEvent<const Message>& event) {
-          receive<Message>(event.getPublisherName(), event.getConstMessage());
-        };
-    return handle_.subscribe<Message>(name, kTopicQueue, receive_it);
-  };
-  ros::Subscriber old;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    old = subscriber_;
+  end();
+  const bool is_own = std::find(own_.begin(), own_.end(), transport) != own_.end();
+  ros::Subscriber subscriber;
+  image_transport::Subscriber plugin_subscriber;
+  if (transport == kRawTransport) {
+    subscriber = subscribed<sensor_msgs::Image>(transport);
+  } else if (is_own) {
+    subscriber = subscribed<sensor_msgs::CompressedImage>(transport);
+  } else {
+    plugin_subscriber = subscribedByPlugin(transport);
   }
-  old.shutdown();  // waits for its callback, which takes the mutex
-  const ros::Subscriber subscriber = transport == kRawTransport ? subscribed(sensor_msgs::Image())
-                                                                : subscribed(sensor_msgs::CompressedImage());
   const std::lock_guard<std::mutex> lock(mutex_);
   subscriber_ = subscriber;
+  plugin_subscriber_ = plugin_subscriber;
   transport_ = transport;
+}
+
+template <class Message>
+ros::Subscriber ImageTopic::subscribed(const std::string& transport) {
+  const boost::function<void(const ros::MessageEvent<const Message>&)> receive_it =
+      [this](const ros::MessageEvent<const Message>& event) {
+        receive<Message>(event.getPublisherName(), event.getConstMessage());
+      };
+  return handle_.subscribe<Message>(nameWith(transport), kTopicQueue, receive_it);
+}
+
+// Plugins do not tell who published an image.
+image_transport::Subscriber ImageTopic::subscribedByPlugin(const std::string& transport) {
+  return subscribeByPlugin(handle_, image_, transport, kTopicQueue,
+                           [this](const sensor_msgs::ImageConstPtr& image) { receive("", image); });
+}
+
+void ImageTopic::end() {
+  ros::Subscriber subscriber;
+  image_transport::Subscriber plugin_subscriber;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    subscriber = subscriber_;
+    plugin_subscriber = plugin_subscriber_;
+  }
+  // They wait for their callback, which takes the mutex.
+  subscriber.shutdown();
+  plugin_subscriber.shutdown();
+}
+
+uint32_t ImageTopic::publisherCount() const {
+  return subscriber_ ? subscriber_.getNumPublishers() : plugin_subscriber_.getNumPublishers();
 }
 
 template <class Message>
@@ -77,8 +99,7 @@ void ImageTopic::receive(const std::string& publisher, const boost::shared_ptr<c
   PublisherWatch::Verdict verdict;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    verdict = publishers_.judge(publisher, message->header.seq, subscriber_.getNumPublishers(),
-                                ros::WallTime::now());
+    verdict = publishers_.judge(publisher, message->header.seq, publisherCount(), ros::WallTime::now());
   }
   if (verdict.missed > 0) callbacks_.miss(verdict.missed);
   verdict.is_taken ? callbacks_.take(asImage(message)) : callbacks_.take_from_other();
@@ -93,19 +114,18 @@ std::string ImageTopic::name() const {
   return nameWith(transport_);
 }
 
-std::string ImageTopic::type() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return transport_ == kRawTransport ? "sensor_msgs/Image" : "sensor_msgs/CompressedImage";
-}
-
 bool ImageTopic::isPublished() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return subscriber_.getNumPublishers() > 0;
+  return publisherCount() > 0;
 }
 
 std::string ImageTopic::problem() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (publishers_.other().empty() || subscriber_.getNumPublishers() < 2) return "";
+  if (publisherCount() < 2) return "";
+  if (plugin_subscriber_)
+    return nameWith(transport_) +
+           " has two publishers, whose images its plugin does not tell apart; stop one of them";
+  if (publishers_.other().empty()) return "";
   return nameWith(transport_) + " has two publishers, " + publishers_.publisher() + " and " +
          publishers_.other() + "; only " + publishers_.publisher() + " is listened to; stop one of them";
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "depth_fusion/common/parameters.h"
 #include "depth_fusion/registration/registration_parameters.h"
@@ -13,14 +14,23 @@ struct PairingParameters {
   float max_wait_s = 0.1f;  // how long a depth image waits for its colour
 };
 
+// The transports that are decoded here; raw is the first.
+std::vector<std::string> ownDepthTransports();
+std::vector<std::string> ownColorTransports();
+
 struct RgbdParameters {
-  std::string depth_transport = "auto";  // raw, compressedDepth or compressed
-  std::string color_transport = "auto";  // raw or compressed
+  std::string image_transport = "auto";
+  std::string depth_transport = "auto";
+  std::string color_transport = "auto";
   PairingParameters pairing;
   RegistrationParameters registration;  // has a table of its own
 
   // All rows but those of the registration.
   ParameterTable table();
+  std::string depthTransport() const;
+  std::string colorTransport() const;
+  // Throws Error if nothing here decodes one of the transports.
+  void checkTransports() const;
 };
 
 }  // namespace depth_fusion

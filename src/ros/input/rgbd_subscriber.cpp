@@ -19,9 +19,9 @@ RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& par
       watch_(depth_, color_, decoder_.cameras()),
       registration_parameters_(parameters.registration),
       pairing_(parameters.pairing),
-      color_(handle, "rgb/image", parameters.color_transport, {"compressed"},
+      color_(handle, "rgb/image", parameters.colorTransport(), ownColorTransports(),
              {[this](const ImageMessage& image) { onColor(image); }, [](uint32_t) {}, [] {}}),
-      depth_(handle, "depth/image", parameters.depth_transport, {"compressedDepth", "compressed"},
+      depth_(handle, "depth/image", parameters.depthTransport(), ownDepthTransports(),
              {[this](const ImageMessage& image) { onDepth(image); },
               [this](uint32_t images) { counter_.miss(images); },
               [this] {

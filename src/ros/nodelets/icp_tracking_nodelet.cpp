@@ -6,10 +6,10 @@
 #include "ros/in_process/worker.h"
 #include "ros/input/initial_pose.h"
 #include "ros/input/rgbd_subscriber.h"
+#include "ros/nodelets/icp_tracking_nodelet_parameters.h"
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/output/pose_publisher.h"
 #include "ros/output/tracker_report.h"
-#include "ros/parameters/shared_rows.h"
 
 namespace depth_fusion {
 
@@ -21,20 +21,14 @@ class IcpTrackingNodelet : public StageNodelet {
 
  private:
   void start() override;
-  void loadAll();
   void applyParameters() override;
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void subscribe();
-  TexturedFramePtr decode(const RgbdMessages& messages);
   void process(const WaitingFrame& waiting);
   void publish(const SensorFrame& frame, const LiveResult& result, StageTimers& timers);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
-  LiveTrackerParameters parameters_;
-  RgbdParameters rgbd_;
-  PoseParameters pose_;
-  int queue_size_ = 1;
-
+  IcpTrackingNodeletParameters parameters_;
   ros::Subscriber frame_subscriber_, view_subscriber_;
   std::unique_ptr<PosePublisher> pose_publisher_;
   std::unique_ptr<TrackerReport> report_;
@@ -55,18 +49,18 @@ IcpTrackingNodelet::~IcpTrackingNodelet() {
 }
 
 void IcpTrackingNodelet::start() {
-  loadAll();
+  loadParameters(parameters_.table(), parameters_.stages());
   ros::NodeHandle& private_handle = getMTPrivateNodeHandle();
-  pose_publisher_ = std::make_unique<PosePublisher>(getMTNodeHandle(), private_handle, pose_);
+  pose_publisher_ = std::make_unique<PosePublisher>(getMTNodeHandle(), private_handle, parameters_.pose);
   report_ = std::make_unique<TrackerReport>(private_handle.advertise<TrackerStatus>("status", 100, true));
   tracker_ = std::make_unique<LiveTracker>(
-      parameters_, private_handle.advertise<TrackedFrameMessage>("frame", kProcessQueue),
+      parameters_.tracker, private_handle.advertise<TrackedFrameMessage>("frame", kProcessQueue),
       LiveTracker::Robot{
           [this](const std_msgs::Header& camera) { return pose_publisher_->startPose(camera); },
           [this] { pose_publisher_->reset(); },
           [this](const std::string& camera) { return pose_publisher_->cameraOnBase(camera); }});
   worker_ = std::make_unique<Worker<WaitingFrame>>(
-      queue_size_, [this](const WaitingFrame& frame) { process(frame); },
+      parameters_.queue_size, [this](const WaitingFrame& frame) { process(frame); },
       [this](const WaitingFrame& frame) {
         counter_.drop(kTooSlow);
         if (frame.ready() != nullptr) tracker_->skip(*frame.ready());
@@ -79,9 +73,10 @@ void IcpTrackingNodelet::subscribe() {
   view_subscriber_ = subscribeInProcess<MapView>(
       "tsdf_fusion/model_view", "tsdf_fusion", Carries::kOther,
       [this](const MapViewMessage::ConstPtr& view) { tracker_->fusion().receive(view); });
-  initial_pose_ = std::make_unique<InitialPose>(
-      getMTNodeHandle(), pose_.map_frame, [this](const Pose& T_map_base) { tracker_->expectAt(T_map_base); });
-  if (parameters_.use_texture) {
+  initial_pose_ =
+      std::make_unique<InitialPose>(getMTNodeHandle(), parameters_.pose.map_frame,
+                                    [this](const Pose& T_map_base) { tracker_->expectAt(T_map_base); });
+  if (parameters_.tracker.use_texture) {
     frame_subscriber_ = subscribeInProcess<TexturedSensorFrame>(
         "texture_odometry/frame", "texture_odometry", Carries::kFrames,
         [this](const TexturedFrameMessage::ConstPtr& message) { worker_->push(message->payload); });
@@ -89,37 +84,21 @@ void IcpTrackingNodelet::subscribe() {
   }
   // The worker's thread makes it, so that no frame is at work before it is there.
   worker_->between([this] {
-    sensor_subscriber_ = std::make_unique<RgbdSubscriber>(
-        getMTNodeHandle(), rgbd_, parameters_.device, counter_, [this](const RgbdMessagesPtr& messages) {
-          worker_->push(WaitingFrame([this, messages] { return decode(*messages); }));
-        });
+    const auto take = [this](const RgbdMessagesPtr& messages) {
+      worker_->push(
+          WaitingFrame([this, messages] { return withoutTexture(sensor_subscriber_->decode(*messages)); }));
+    };
+    sensor_subscriber_ = std::make_unique<RgbdSubscriber>(getMTNodeHandle(), parameters_.rgbd,
+                                                          parameters_.tracker.device, counter_, take);
   });
 }
 
-TexturedFramePtr IcpTrackingNodelet::decode(const RgbdMessages& messages) {
-  const SensorFramePtr sensor = sensor_subscriber_->decode(messages);
-  if (sensor == nullptr) return nullptr;
-  return std::make_shared<TexturedSensorFrame>(
-      TexturedSensorFrame{sensor, withoutTexture("no texture odometry"), nullptr});
-}
-
-void IcpTrackingNodelet::loadAll() {
-  PipelineParameters& pipeline = parameters_.pipeline;
-  const ParameterTable own = joined({pipeline.icp_tracking.table(),
-                                     rgbd_.table(),
-                                     pose_.table(),
-                                     parameters_.table(),
-                                     {queueSizeRow(queue_size_)}});
-  loadParameters(own, {{"registration", rgbd_.registration.table()},
-                       {"depth_sensor", pipeline.depth_sensor.table()},
-                       {"preprocessing", pipeline.preprocessing.table()},
-                       {"relocalisation", pipeline.relocalisation.table()}});
-}
-
 void IcpTrackingNodelet::applyParameters() {
-  validateRange(parameters_.pipeline.preprocessing, parameters_.pipeline.depth_sensor);
+  const PipelineParameters& pipeline = parameters_.tracker.pipeline;
+  validateRange(pipeline.preprocessing, pipeline.depth_sensor);
+  parameters_.rgbd.checkTransports();
   if (tracker_ != nullptr) tracker_->applyParameters();
-  if (sensor_subscriber_ != nullptr) sensor_subscriber_->setParameters(rgbd_);
+  if (sensor_subscriber_ != nullptr) sensor_subscriber_->setParameters(parameters_.rgbd);
 }
 
 void IcpTrackingNodelet::process(const WaitingFrame& waiting) {

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "depth_fusion/common/percentile.h"
-#include "ros/input/published_topics.h"
 #include "ros/parameters/parameter_server.h"
 
 namespace depth_fusion {
@@ -14,7 +13,6 @@ using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kReportPeriod_s = 1.0;
 constexpr int kSilentReports = 3;       // without a frame, before that is a problem
-constexpr int kStillReports = 10;       // of ROS time, before that is one: a replay may still be starting
 constexpr uint64_t kFewestTooSlow = 5;  // one frame of so many may be skipped without a warning
 
 uint64_t droppedFor(const FrameAccount& account, const std::string& reason) {
@@ -36,14 +34,15 @@ void StageNodelet::onInit() {
 }
 
 void StageNodelet::loadParameters(const ParameterTable& own,
-                                  const std::vector<std::pair<std::string, ParameterTable>>& stages) {
+                                  const std::vector<std::pair<std::string, ParameterTable>>& stages,
+                                  const std::string& foreign) {
   parameter_groups_ = {{"", getMTPrivateNodeHandle(), own}};
   for (const auto& [name, table] : stages) {
     parameter_groups_.push_back({name, ros::NodeHandle(getMTNodeHandle(), name), table});
   }
   default_parameters_ = makeConfig(parameter_groups_);
   for (const ParameterGroup& group : parameter_groups_)
-    depth_fusion::loadParameters(group.handle, group.table);
+    depth_fusion::loadParameters(group.handle, group.table, group.name.empty() ? foreign : "");
   applyParameters();
 }
 
@@ -82,7 +81,7 @@ void StageNodelet::recordTimings(const StageTimers& timers) {
 
 void StageNodelet::report() {
   publishTimings();
-  checkClock();
+  clock_problem_ = clock_watch_.check(getName());
   updater_->force_update();
 }
 
@@ -101,19 +100,6 @@ void StageNodelet::publishTimings() {
   }
   last_timings_ = timings;
   timings_publisher_.publish(timings);
-}
-
-void StageNodelet::checkClock() {
-  const ros::Time now = ros::Time::now();
-  still_reports_ = now == std::exchange(last_time_, now) ? still_reports_ + 1 : 0;
-  if (still_reports_ == 0) clock_problem_.clear();
-  if (still_reports_ < kStillReports || !clock_problem_.empty()) return;
-  if (!ros::Time::isSimTime() || PublishedTopics().contains("/clock")) return;
-  clock_problem_ =
-      "use_sim_time is set, but nobody publishes /clock, so that time stands still; rosparam set "
-      "use_sim_time "
-      "false, and start the nodelets again";
-  NODELET_WARN_STREAM(getName() << ": " << clock_problem_);
 }
 
 void StageNodelet::warnOfMissingFrames(const FrameAccount& account,

@@ -17,13 +17,10 @@
 #include "ros/callbacks/callback_gate.h"
 #include "ros/in_process/frame_counter.h"
 #include "ros/in_process/process_message.h"
+#include "ros/input/clock_watch.h"
 #include "ros/parameters/reconfigure_server.h"
 
 namespace depth_fusion {
-
-// Length of the queues of topics between nodelets, which never fill: their callbacks only hand on what comes.
-// Frames wait, and are dropped and counted, in a nodelet's own queue of `queue_size`.
-constexpr uint32_t kProcessQueue = 100;
 
 class StageNodelet : public nodelet::Nodelet {
  protected:
@@ -37,10 +34,11 @@ class StageNodelet : public nodelet::Nodelet {
   virtual void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) = 0;
 
   // Fills the rows from the parameter server: the nodelet's own from its private namespace, those of the
-  // stages, which it may share with other nodelets, from the namespaces beside. Throws Error for what is
-  // unknown or does not fit.
+  // stages, which it may share with other nodelets, from the namespaces beside. What stands below `foreign`
+  // in its private namespace is somebody else's. Throws Error for what is unknown or does not fit.
   void loadParameters(const ParameterTable& own,
-                      const std::vector<std::pair<std::string, ParameterTable>>& stages = {});
+                      const std::vector<std::pair<std::string, ParameterTable>>& stages = {},
+                      const std::string& foreign = "");
 
   // Subscribes what the nodelet `sender` of the same process publishes, frames or something else. What comes
   // from another process has no payload, so it is not taken: an error says what to do, and frames are counted
@@ -70,8 +68,6 @@ class StageNodelet : public nodelet::Nodelet {
   // Warns if no frame came since the last report, or if many were skipped.
   void warnOfMissingFrames(const FrameAccount& account, diagnostic_updater::DiagnosticStatusWrapper& status);
   void publishTimings();
-  // Warns, once, if ROS time stands still because nobody publishes it.
-  void checkClock();
 
   std::vector<ParameterGroup> parameter_groups_;
   dynamic_reconfigure::Config default_parameters_;
@@ -86,9 +82,8 @@ class StageNodelet : public nodelet::Nodelet {
   std::string frame_source_;  // the nodelet that frames come from; empty: from topics
   FrameAccount last_account_;
   int silent_reports_ = 0;
-  std::string clock_problem_;
-  ros::Time last_time_;  // at the last report
-  int still_reports_ = 0;
+  ClockWatch clock_watch_;
+  std::string clock_problem_;  // as of the last report
 };
 
 template <class Payload>

@@ -74,6 +74,7 @@ void TextureOdometryNodelet::start() {
 }
 
 void TextureOdometryNodelet::applyParameters() {
+  rgbd_.checkTransports();
   odometry_parameters_ = std::make_shared<TextureOdometryParameters>(parameters_);
   if (odometry_ != nullptr) odometry_->setParameters(parameters_, depth_sensor_);
   if (subscriber_ != nullptr) subscriber_->setParameters(rgbd_);

@@ -12,7 +12,6 @@
 #include "ros/output/map_commands.h"
 #include "ros/output/map_keeper.h"
 #include "ros/output/map_reporter.h"
-#include "ros/output/view_frame.h"
 
 namespace depth_fusion {
 
@@ -30,8 +29,6 @@ class TsdfFusionNodelet : public StageNodelet {
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void greet();                             // tells a tracker that has come of the map
   void process(const TrackedFrame& frame);  // in the worker's thread
-  // Shows viewers the map as the frame's camera sees it.
-  void show(const TrackedFrame& frame, FusedMap& map, StageTimers& timers);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
   TsdfFusionNodeletParameters parameters_;
@@ -41,7 +38,6 @@ class TsdfFusionNodelet : public StageNodelet {
   ros::Subscriber frame_subscriber_;
   std::unique_ptr<Worker<WaitingFrame>> worker_;
   std::unique_ptr<PosedFrameSubscriber> posed_subscriber_;  // of frames with poses from elsewhere
-  std::unique_ptr<ViewFrame> view_frame_;                   // the same; elsewhere nobody sends it
   std::unique_ptr<MapCommands> commands_;
   std::unique_ptr<MapKeeper> keeper_;
 };
@@ -55,7 +51,8 @@ TsdfFusionNodelet::~TsdfFusionNodelet() {
 }
 
 void TsdfFusionNodelet::start() {
-  loadParameters(parameters_.table(), parameters_.stages());
+  // The transports of the model's picture have parameters, too.
+  loadParameters(parameters_.table(), parameters_.stages(), kModelPictureTopic);
   const PipelineParameters& pipeline = parameters_.pipeline;
   map_ = std::make_shared<SharedMap>(sharedCompute(parameters_.device), pipeline, parameters_.map_frame);
   mapper_ = std::make_unique<FrameMapper>(*map_, pipeline, parameters_.isExternal());
@@ -69,7 +66,8 @@ void TsdfFusionNodelet::start() {
 void TsdfFusionNodelet::advertise() {
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
   map_->locked([&](FusedMap&) {
-    reporter_ = std::make_unique<MapReporter>(map_, handle, kProcessQueue, callbacks_, [this] { greet(); });
+    reporter_ =
+        std::make_unique<MapReporter>(map_, handle, parameters_.viewFrame(), callbacks_, [this] { greet(); });
   });
   worker_ = std::make_unique<Worker<WaitingFrame>>(
       parameters_.queue_size,
@@ -88,7 +86,6 @@ void TsdfFusionNodelet::advertise() {
 
 void TsdfFusionNodelet::subscribe() {
   if (parameters_.isExternal()) {
-    view_frame_ = std::make_unique<ViewFrame>(parameters_.map_frame, parameters_.view_frame);
     // The worker's thread makes it, so that no frame is at work before it is there.
     worker_->between([this] {
       posed_subscriber_ = std::make_unique<PosedFrameSubscriber>(
@@ -104,6 +101,7 @@ void TsdfFusionNodelet::subscribe() {
 
 void TsdfFusionNodelet::applyParameters() {
   validateRange(parameters_.pipeline.preprocessing, parameters_.pipeline.depth_sensor);
+  parameters_.rgbd.checkTransports();
   if (posed_subscriber_ != nullptr) posed_subscriber_->setParameters(parameters_.rgbd);
   if (map_ == nullptr) return;  // not started yet
   map_->locked([this](FusedMap& map) {
@@ -127,7 +125,7 @@ void TsdfFusionNodelet::process(const TrackedFrame& frame) {
       outcome = mapper_->map(frame, map, parameters_.resetsOnClockJump(), timers);
       if (outcome.accepted && reporter_->hasViewers()) mapper_->render(frame, map, timers);
       reporter_->answer(header, outcome, *mapper_, map);
-      if (outcome.accepted) show(frame, map, timers);
+      if (outcome.accepted) reporter_->show(frame, mapper_->renderer(map), parameters_.picture, timers);
     } catch (const std::exception& error) {
       outcome.reason = error.what();
       NODELET_ERROR_STREAM_THROTTLE(5.0, getName() << ": " << error.what());
@@ -137,12 +135,6 @@ void TsdfFusionNodelet::process(const TrackedFrame& frame) {
     reporter_->publishStatus(header, outcome, *mapper_, map, counter_.account());
   });
   recordTimings(timers);
-}
-
-void TsdfFusionNodelet::show(const TrackedFrame& frame, FusedMap& map, StageTimers& timers) {
-  const std_msgs::Header& header = frame.sensor->header;
-  if (view_frame_ != nullptr) view_frame_->follow(header.stamp, frame.tracking.T_W_D);
-  reporter_->picture().publish(header, mapper_->renderer(map), parameters_.picture, timers);
 }
 
 void TsdfFusionNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -31,6 +31,8 @@ struct TsdfFusionNodeletParameters {
   std::vector<std::pair<std::string, ParameterTable>> stages();
 
   bool isExternal() const { return tracking == "external"; }
+  // The frame that this nodelet sends for the view of rviz; with poses from icp_tracking, that one does.
+  std::string viewFrame() const { return isExternal() ? view_frame : ""; }
   bool resetsOnClockJump() const { return on_clock_jump == "reset"; }
 };
 

@@ -8,14 +8,17 @@
 
 namespace depth_fusion {
 
-MapReporter::MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle& handle, uint32_t view_queue,
-                         const CallbackGate& callbacks, const std::function<void()>& greet)
+MapReporter::MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle& handle,
+                         const std::string& view_frame, const CallbackGate& callbacks,
+                         const std::function<void()>& greet)
     : map_(map),
       view_publisher_(handle.advertise<MapViewMessage>(
-          "model_view", view_queue, [greet](const ros::SingleSubscriberPublisher&) { greet(); },
+          "model_view", kProcessQueue, [greet](const ros::SingleSubscriberPublisher&) { greet(); },
           ros::SubscriberStatusCallback(), callbacks.token())),
       status_publisher_(handle.advertise<MapStatus>("status", 100, true)),
-      picture_(handle) {}
+      picture_(handle) {
+  if (!view_frame.empty()) view_frame_.emplace(map->frame_id, view_frame);
+}
 
 void MapReporter::answer(const std_msgs::Header& header, const MappingOutcome& outcome,
                          const FrameMapper& mapper, FusedMap& map) {
@@ -47,6 +50,13 @@ void MapReporter::announce(const std::string& news, const FrameMapper& mapper, F
   ROS_INFO_STREAM(news);
   answer(std_msgs::Header(), {false, false, news}, mapper, map);
   publishStatus(std_msgs::Header(), {false, false, news}, mapper, map, frames);
+}
+
+void MapReporter::show(const TrackedFrame& frame, ModelViewRenderer& renderer,
+                       const ModelPictureParameters& parameters, StageTimers& timers) {
+  const std_msgs::Header& header = frame.sensor->header;
+  if (view_frame_) view_frame_->follow(header.stamp, frame.tracking.T_W_D);
+  picture_.publish(header, renderer, parameters, timers);
 }
 
 void MapReporter::diagnose(const std::string& problem, diagnostic_updater::DiagnosticStatusWrapper& status) {

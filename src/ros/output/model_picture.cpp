@@ -1,5 +1,6 @@
 #include "ros/output/model_picture.h"
 
+#include <image_transport/image_transport.h>
 #include <sensor_msgs/Image.h>
 
 #include <boost/make_shared.hpp>
@@ -11,7 +12,7 @@
 namespace depth_fusion {
 
 ModelPicture::ModelPicture(ros::NodeHandle& handle)
-    : picture_publisher_(handle.advertise<sensor_msgs::Image>("model_view/image", 1)),
+    : picture_publisher_(image_transport::ImageTransport(handle).advertise(kModelPictureTopic, 1)),
       depth_publisher_(handle.advertise<sensor_msgs::Image>("model_view/depth", 1)),
       info_publisher_(handle.advertise<sensor_msgs::CameraInfo>("model_view/camera_info", 1)) {}
 

@@ -1,6 +1,7 @@
 // The map as the camera sees it: a picture for viewers, and depth without holes for other nodes.
 #pragma once
 
+#include <image_transport/publisher.h>
 #include <ros/node_handle.h>
 
 #include "depth_fusion/model_view/model_view_renderer.h"
@@ -8,9 +9,12 @@
 
 namespace depth_fusion {
 
+constexpr char kModelPictureTopic[] = "model_view/image";
+
 class ModelPicture {
  public:
-  // Advertises model_view/image, model_view/depth and model_view/camera_info.
+  // Advertises model_view/image, with every transport that has a plugin of image_transport here, and
+  // model_view/depth and model_view/camera_info.
   explicit ModelPicture(ros::NodeHandle& handle);
 
   bool hasViewers() const;
@@ -21,7 +25,8 @@ class ModelPicture {
                const ModelPictureParameters& parameters, StageTimers& timers);
 
  private:
-  ros::Publisher picture_publisher_, depth_publisher_, info_publisher_;
+  image_transport::Publisher picture_publisher_;
+  ros::Publisher depth_publisher_, info_publisher_;
   ros::WallTime last_;
 };
 

@@ -28,14 +28,18 @@ std::string textOf(XmlRpc::XmlRpcValue value, const std::string& name) {
   }
 }
 
+bool isBelow(const std::string& prefix, const std::string& name) {
+  return name.compare(0, prefix.size(), prefix) == 0;
+}
+
 }  // namespace
 
-void loadParameters(const ros::NodeHandle& handle, const ParameterTable& table) {
+void loadParameters(const ros::NodeHandle& handle, const ParameterTable& table, const std::string& foreign) {
   std::vector<std::string> names;
   handle.getParamNames(names);
   const std::string prefix = handle.getNamespace() + "/";
   for (const std::string& name : names) {
-    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    if (!isBelow(prefix, name) || (!foreign.empty() && isBelow(prefix + foreign + "/", name))) continue;
     XmlRpc::XmlRpcValue value;
     if (!handle.getParam(name, value)) continue;
     try {

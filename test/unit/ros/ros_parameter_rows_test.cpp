@@ -5,6 +5,7 @@
 #include "ros/input/device_publisher_parameters.h"
 #include "ros/input/player_parameters.h"
 #include "ros/input/rgbd_parameters.h"
+#include "ros/nodelets/icp_tracking_nodelet_parameters.h"
 #include "ros/nodelets/surface_mesh_nodelet_parameters.h"
 #include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
 #include "ros/output/live_surface_parameters.h"
@@ -40,6 +41,9 @@ TEST(ParameterRows, EveryMemberOfTheInputsHasOne) {
 TEST(ParameterRows, EveryMemberOfTheNodeletsHasOne) {
   // Without the pipeline, the stages of which have tables of their own.
   expectRows<LiveTrackerParameters>(fieldCount<LiveTrackerParameters>() - 1);
+  expectRows<IcpTrackingNodeletParameters>(
+      fieldCount<IcpTrackingNodeletParameters>() - 3 + fieldCount<IcpTrackingParameters>() + rgbdRows() +
+      fieldCount<PoseParameters>() + fieldCount<LiveTrackerParameters>() - 1);
   expectRows<TsdfFusionNodeletParameters>(
       fieldCount<TsdfFusionNodeletParameters>() - 4 + fieldCount<TsdfFusionParameters>() + rgbdRows() +
       fieldCount<ModelPictureParameters>() + fieldCount<MapKeeperParameters>());
@@ -49,14 +53,20 @@ TEST(ParameterRows, EveryMemberOfTheNodeletsHasOne) {
 }
 
 // A nodelet takes the pipeline's stages by their names, bound to its own parameters.
-TEST(ParameterRows, TheStagesOfTsdfFusionAreThePipelines) {
-  TsdfFusionNodeletParameters parameters;
+template <class NodeletParameters>
+void expectStagesOfThePipeline() {
+  NodeletParameters parameters;
   PipelineParameters pipeline;
   const ParameterTable known = pipeline.table();
   for (const auto& [stage, table] : parameters.stages()) {
     for (const Parameter& row : withPrefix(stage, table)) EXPECT_NO_THROW(findParameter(known, row.name));
     expectWithin(parameters, table);
   }
+}
+
+TEST(ParameterRows, TheStagesOfTheNodeletsAreThePipelines) {
+  expectStagesOfThePipeline<IcpTrackingNodeletParameters>();
+  expectStagesOfThePipeline<TsdfFusionNodeletParameters>();
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+#include "apps/reconstruct/results.h"
+
+#include <functional>
+#include <iostream>
+
+#include "depth_fusion/surface_mesh/ply.h"
+#include "depth_fusion/submaps/world_mesh.h"
+
+namespace depth_fusion {
+namespace {
+
+void saveMap(ReconstructionPipeline& pipeline, MapSaver& saver) {
+  const SaveReport saved = pipeline.save(saver);
+  std::cout << saved.place << ": " << saved.blocks << " blocks, " << saved.bytes << " bytes" << std::endl;
+}
+
+void writeMesh(const std::string& path, const SurfaceMeshParameters& parameters, ComputeContext& compute,
+               ReconstructionPipeline& pipeline) {
+  const StageTimers::Scope timer(pipeline.timers(), "surface_mesh");
+  PlyWriter writer(path);
+  WorldSnapshot world(pipeline.submaps());
+  const MeshStatistics mesh = exportWorldMesh(compute, world, writer, parameters, world.hasColor());
+  std::cout << path << ": " << mesh.size.vertices << " vertices, " << mesh.size.triangles << " triangles"
+            << std::endl;
+}
+
+void attempt(RunLog& log, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    log.complain(error.what());
+  }
+}
+
+}  // namespace
+
+void writeResults(const RunOptions& options, ComputeContext& compute, ReconstructionPipeline& pipeline,
+                  MapSaver* saver, RunLog& log) {
+  const std::string folder = options.output + "/";
+  const size_t tracking_peak_rss_bytes = peakRssBytes();
+  attempt(log, [&] { writeTrajectory(folder + "trajectory.txt", log.trajectory()); });
+  if (saver != nullptr && log.counts().tracked > 0) attempt(log, [&] { saveMap(pipeline, *saver); });
+  if (!options.no_mesh) {
+    attempt(log, [&] { writeMesh(folder + "mesh.ply", options.parameters.surface_mesh, compute, pipeline); });
+  }
+  attempt(log, [&] {
+    writeReport(folder + "report.json", log.input(), compute, pipeline, log.counts(),
+                tracking_peak_rss_bytes);
+  });
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,14 @@
+// The files that a run leaves behind.
+#pragma once
+
+#include "apps/reconstruct/run_log.h"
+#include "depth_fusion/submaps/map_file.h"
+
+namespace depth_fusion {
+
+// Writes trajectory and report, and the mesh and the map where they are wanted. All are tried; of what fails,
+// the log complains. Null for `saver`: the map is saved nowhere.
+void writeResults(const RunOptions& options, ComputeContext& compute, ReconstructionPipeline& pipeline,
+                  MapSaver* saver, RunLog& log);
+
+}  // namespace depth_fusion

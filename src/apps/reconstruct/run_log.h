@@ -1,0 +1,67 @@
+// What becomes of the frames of a run: the account for its report, and what is said of it on the console.
+#pragma once
+
+#include <string>
+
+#include "apps/reconstruct/report.h"
+#include "apps/reconstruct/run.h"
+#include "depth_fusion/recording/trajectory_file.h"
+
+namespace depth_fusion {
+
+class RunLog {
+ public:
+  explicit RunLog(const RunOptions& options);
+
+  // The recording's files, for messages.
+  const std::string& input() const { return input_; }
+  const RunCounts& counts() const { return counts_; }
+  // The poses of the tracked frames.
+  const Trajectory& trajectory() const { return trajectory_; }
+  // Whether anything was complained of.
+  bool failed() const { return failed_; }
+
+  // The next calls are about another frame, which was read.
+  void begin(const RgbdFrame& frame);
+  // The sensor is searched for in a map that was loaded.
+  void searchInMap() { is_searched_for_ = true; }
+  void note(const RgbdFrame& frame, const FrameResult& result);
+  // Says once if the noise is not what the sensor model says.
+  void noteNoise(const DepthSensorParameters& sensor, const DepthFrame& depth);
+  void noteUnreadable(const std::string& why);
+  // Says what is wrong with the whole, after the last frame.
+  void conclude();
+
+  // Prints how far the run is of so many frames: now and then, or on a terminal always, in the same line.
+  void showProgress(size_t all_frames, double frame_ms, size_t blocks, bool last) const;
+  // What goes wrong, on standard error.
+  void complain(const std::string& message);
+
+ private:
+  void noteLoss(const std::string& reason);
+  void noteTracked(const TrackingResult& tracking);
+  void noteFusion(const FusionResult& fusion);
+  // Says once that the map may be wrong.
+  void noteDoubt(const std::string& doubt);
+  void noteMostLost();
+  // Prints an event of the frame on a line of its own.
+  void say(const std::string& event) const;
+  // Prints what is no failure on standard error.
+  void warn(const std::string& message) const;
+
+  const RunOptions& options_;
+  const std::string input_;
+  RunCounts counts_;
+  Trajectory trajectory_;
+  std::string status_;            // of the last frame
+  bool is_lost_ = false;          // the frame before
+  bool is_searched_for_ = false;  // in a map that was loaded
+  bool pool_was_full_ = false;
+  bool window_was_left_ = false;
+  bool color_was_bad_ = false;
+  bool stamp_was_bad_ = false;
+  bool noise_was_said_ = false;
+  bool failed_ = false;
+};
+
+}  // namespace depth_fusion
