@@ -18,7 +18,7 @@ ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 # Debian carries ROS 1 itself, under its own names.
 DEBIAN_PACKAGES=(
   catkin catkin-lint libgtest-dev
-  ros-message-generation ros-message-runtime ros-std-msgs
+  ros-message-generation ros-message-runtime ros-geometry-msgs ros-std-msgs
   libroscpp-dev libroscpp-core-dev pluginlib-dev libnodelet-dev libnodeletlib-dev libnodeletlib-tools libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libcamera-info-manager-dev libimage-transport-dev libopenni2-dev

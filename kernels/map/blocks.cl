@@ -1,5 +1,5 @@
-// Bookkeeping of blocks. A work-item is one block (assign_blocks, withdraw_requests, remove_blocks) or as many bytes of it
-// as 16 voxels have (gather_slots, scatter_slots, clear_blocks).
+// Bookkeeping of blocks. A work-item is one block (assign_blocks, withdraw_requests, remove_blocks) or as
+// many bytes of it as 16 voxels have (gather_slots, scatter_slots, clear_blocks).
 //   offsets        slot or BLOCK_EMPTY a block of the window
 //   block_indices  index and in-use flag a slot
 //   requests       index a block
@@ -17,8 +17,8 @@ __kernel void assign_blocks(__global int* offsets, __global int4* block_indices,
   block_states[slot] = 0;
 }
 
-// Copy blocks of a layer between their slots and a list of blocks, one after the other; as many bytes a work-item
-// as clear_blocks.
+// Copy blocks of a layer between their slots and a list of blocks, one after the other; as many bytes a
+// work-item as clear_blocks.
 __kernel void gather_slots(__global const uchar* layer, __global uchar* blocks, int bytes_per_voxel,
                            __global const int* slots, int count) {
   const int items_per_block = BLOCK_VOXELS / 16;
@@ -26,7 +26,8 @@ __kernel void gather_slots(__global const uchar* layer, __global uchar* blocks, 
   if (i >= count) return;
   __global const uchar* source = layer + (size_t)slots[i] * BLOCK_VOXELS * bytes_per_voxel;
   __global uchar* target = blocks + (size_t)i * BLOCK_VOXELS * bytes_per_voxel;
-  for (int k = get_global_id(0) % items_per_block; k < items_per_block * bytes_per_voxel; k += items_per_block)
+  for (int k = get_global_id(0) % items_per_block; k < items_per_block * bytes_per_voxel;
+       k += items_per_block)
     vstore16(vload16(k, source), k, target);
 }
 
@@ -37,7 +38,8 @@ __kernel void scatter_slots(__global uchar* layer, __global const uchar* blocks,
   if (i >= count) return;
   __global const uchar* source = blocks + (size_t)i * BLOCK_VOXELS * bytes_per_voxel;
   __global uchar* target = layer + (size_t)slots[i] * BLOCK_VOXELS * bytes_per_voxel;
-  for (int k = get_global_id(0) % items_per_block; k < items_per_block * bytes_per_voxel; k += items_per_block)
+  for (int k = get_global_id(0) % items_per_block; k < items_per_block * bytes_per_voxel;
+       k += items_per_block)
     vstore16(vload16(k, source), k, target);
 }
 

@@ -11,7 +11,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr size_t kTransferBlocks = 16384;              // blocks that one upload of requests names
+constexpr size_t kTransferBlocks = 16384;                // blocks that one upload of requests names
 constexpr size_t kBlockTransferBytes = size_t{4} << 20;  // of blocks that are copied at a time
 
 size_t cube(int n) { return static_cast<size_t>(n) * static_cast<size_t>(n) * static_cast<size_t>(n); }
@@ -121,8 +121,7 @@ void BlockMap::moveWindow(const BlockIndex& origin) {
 
 size_t BlockMap::allocate(const std::vector<BlockIndex>& blocks) {
   std::vector<BlockIndex> missing = blocks;
-  const std::vector<BlockIndex> unmet =
-      bring_back_ ? bring_back_(missing) : std::vector<BlockIndex>();
+  const std::vector<BlockIndex> unmet = bring_back_ ? bring_back_(missing) : std::vector<BlockIndex>();
   const std::vector<int> slots = slots_.take(missing);
   const size_t met = blocks.size() - missing.size() - unmet.size() + slots.size();
   missing.insert(missing.end(), unmet.begin(), unmet.end());

@@ -38,7 +38,8 @@ void MapKernels::scatterSlots(BlockLayer& layer, const DeviceBuffer& blocks, con
 }
 
 void MapKernels::clearBlocks(BlockLayer& layer, const DeviceBuffer& slots, int count) {
-  clear_.run(items(count), layer.buffer(), layer.clearedBlock(), static_cast<int>(layer.bytesPerVoxel()), slots, count);
+  clear_.run(items(count), layer.buffer(), layer.clearedBlock(), static_cast<int>(layer.bytesPerVoxel()),
+             slots, count);
 }
 
 }  // namespace depth_fusion

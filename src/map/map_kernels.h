@@ -23,7 +23,9 @@ class MapKernels {
   void clearBlocks(BlockLayer& layer, const DeviceBuffer& slots, int count);
 
  private:
-  size_t items(int blocks) const { return static_cast<size_t>(blocks) * static_cast<size_t>(items_per_block_); }
+  size_t items(int blocks) const {
+    return static_cast<size_t>(blocks) * static_cast<size_t>(items_per_block_);
+  }
 
   int items_per_block_;  // of those that copy blocks
   Kernel assign_, withdraw_, remove_, gather_, scatter_, clear_;

@@ -18,8 +18,8 @@ ViewVolume::ViewVolume(const CameraIntrinsics& camera, const Pose& T_D_W, double
   box_.extend(T_W_D.translation());
   for (const double u : {-1.0, static_cast<double>(camera.width)}) {
     for (const double v : {-1.0, static_cast<double>(camera.height)})
-      box_.extend(T_W_D *
-                  (max_range_m * Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0)));
+      box_.extend(T_W_D * (max_range_m *
+                           Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0)));
   }
 }
 

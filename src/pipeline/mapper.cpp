@@ -33,8 +33,8 @@ void Mapper::setParameters(const PipelineParameters& parameters) {
   parameters_ = parameters;
 }
 
-MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D,
-                           bool is_given, StageTimers& timers) {
+MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D, bool is_given,
+                           StageTimers& timers) {
   MappingResult result;
   if (map_.slots().used() == 0 && submaps_.blockCount() == 0)
     map_.placeWindow(windowCentre(frame, parameters_.depthRange(), T_W_D));

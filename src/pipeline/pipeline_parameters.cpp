@@ -5,8 +5,8 @@ namespace depth_fusion {
 ParameterTable PipelineParameters::table() {
   return joined(
       {withPrefix("map", map.table()), withPrefix("submaps", submaps.table()),
-       withPrefix("registration", registration.table()),
-       withPrefix("depth_sensor", depth_sensor.table()), withPrefix("preprocessing", preprocessing.table()),
+       withPrefix("registration", registration.table()), withPrefix("depth_sensor", depth_sensor.table()),
+       withPrefix("preprocessing", preprocessing.table()),
        withPrefix("texture_odometry", texture_odometry.table()),
        withPrefix("icp_tracking", icp_tracking.table()), withPrefix("relocalisation", relocalisation.table()),
        withPrefix("tsdf_fusion", tsdf_fusion.table()), withPrefix("color_fusion", color_fusion.table()),

@@ -165,9 +165,10 @@ std::unique_ptr<StoreSnapshot> BlockStore::snapshot(const std::vector<GroupKey>&
   if (!is_in_database) return snapshot;
   database();
   // A server's connection holds one transaction at a time.
-  snapshot->database_ = isOnServer(parameters_.store)
-                            ? std::shared_ptr<Database>(openDatabase(parameters_.store, DatabaseAccess::kRead))
-                            : database_;
+  snapshot->database_ =
+      isOnServer(parameters_.store)
+          ? std::shared_ptr<Database>(openDatabase(parameters_.store, DatabaseAccess::kRead))
+          : database_;
   snapshot->reader_ = snapshot->database_->read();
   return snapshot;
 }
@@ -205,6 +206,15 @@ StoreUsage BlockStore::usage() const {
   StoreUsage usage = usage_;
   usage.groups_in_memory = entries_.size() - usage.groups_on_disk;
   return usage;
+}
+
+std::set<uint32_t> BlockStore::submapsInDatabase() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::set<uint32_t> submaps;
+  for (const auto& [key, entry] : entries_) {
+    if (entry.database_bytes > 0) submaps.insert(key.submap);
+  }
+  return submaps;
 }
 
 void BlockStore::hold(Entry& entry, GroupPtr blocks, RowsPtr rows) {
@@ -375,9 +385,9 @@ Database& BlockStore::database() {
 BlockStore::RowsPtr StoreSnapshot::rows(const GroupKey& key) {
   const BlockStore::Entry& entry = entries_.at(key);
   if (entry.rows != nullptr) return entry.rows;
-  return std::make_shared<const BlockStore::Rows>(
-      entry.blocks != nullptr ? packedRows(key, *entry.blocks, layers_, block_size_)
-                              : rowsIn(*reader_, key, layers_, database_->name()));
+  return std::make_shared<const BlockStore::Rows>(entry.blocks != nullptr
+                                                      ? packedRows(key, *entry.blocks, layers_, block_size_)
+                                                      : rowsIn(*reader_, key, layers_, database_->name()));
 }
 
 BlockStore::Group StoreSnapshot::group(const GroupKey& key) {

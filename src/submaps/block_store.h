@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -52,8 +53,8 @@ class BlockStore {
   void putRows(const GroupKey& key, Rows rows, size_t blocks);
   // The group, which is not here any more. Throws Error if it cannot be read; it stays then.
   GroupPtr take(const GroupKey& key);
-  // The groups as they are now, to be read while this store goes on changing; those that are not here are left
-  // out. Throws Error if the database cannot be read.
+  // The groups as they are now, to be read while this store goes on changing; those that are not here are
+  // left out. Throws Error if the database cannot be read.
   std::unique_ptr<StoreSnapshot> snapshot(const std::vector<GroupKey>& keys);
   // The groups, as far as they are here, are taken soon.
   void readAhead(const std::vector<GroupKey>& keys);
@@ -61,6 +62,8 @@ class BlockStore {
   bool hasRoom() const;
   void clear();
   StoreUsage usage() const;
+  // Submaps of which something is in the database.
+  std::set<uint32_t> submapsInDatabase() const;
 
  private:
   friend class StoreSnapshot;

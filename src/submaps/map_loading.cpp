@@ -86,7 +86,8 @@ std::string ReadMap::otherRow(const Database& database, DatabaseReader& reader, 
   const std::optional<std::string> row = reader.get(key);
   const bool is_there =
       row && parseBlocks(*row, index, layer, block_size_, rowName(database, key)).blocks == blocks;
-  check(is_there, database.name() + " is damaged: its layer " + layer.name + " has other blocks than the first");
+  check(is_there,
+        database.name() + " is damaged: its layer " + layer.name + " has other blocks than the first");
   return *row;
 }
 

@@ -16,8 +16,8 @@ class PartLoader {
   // the layers, those are loaded that maps with these parameters have.
   PartLoader(ComputeContext& compute, const MapParameters& parameters, int edge_blocks, size_t most_blocks);
 
-  // Has map() hold the blocks of the box and of the groups about it, and no others. Throws Error if they cannot
-  // be read, or are too many.
+  // Has map() hold the blocks of the box and of the groups about it, and no others. Throws Error if they
+  // cannot be read, or are too many.
   void load(WholeMap& world, const BlockBox& box);
   BlockMap& map() { return *map_; }
 

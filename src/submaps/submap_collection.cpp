@@ -19,8 +19,7 @@ SubmapCollection::SubmapCollection(BlockMap& map, const SubmapParameters& parame
       store_(std::make_unique<BlockStore>(parameters, layers_, map.parameters().block_size)) {
   validate(parameters_.table());
   begin(map_.window());
-  map_.bringBackBy(
-      [this](std::vector<BlockIndex>& requested) { return bringBackRequested(requested); });
+  map_.bringBackBy([this](std::vector<BlockIndex>& requested) { return bringBackRequested(requested); });
 }
 
 SubmapCollection::~SubmapCollection() { map_.bringBackBy(nullptr); }
@@ -115,8 +114,48 @@ std::vector<SubmapDescription> SubmapCollection::submaps() const {
   return descriptions;
 }
 
+std::vector<SubmapExtent> SubmapCollection::extents() const {
+  const std::set<uint32_t> in_database = store_->submapsInDatabase();
+  std::vector<SubmapExtent> extents;
+  for (uint32_t i = 0; i < submaps_.size(); ++i) {
+    BlockBox box;
+    for (const auto& [group, count] : submaps_[i].stored) {
+      box.extend(edge_ * group);
+      box.extend((edge_ * group.array() + edge_ - 1).matrix());
+    }
+    if (i == active_) {
+      for (const BlockBox& of_slots : map_.slots().groupBoxes()) {
+        if (!of_slots.isEmpty()) box.extend(of_slots);
+      }
+    }
+    if (box.isEmpty()) continue;
+    const SubmapState elsewhere = in_database.count(i) > 0 ? SubmapState::kInStore : SubmapState::kInMemory;
+    extents.push_back({boxInW(box), i == active_ ? SubmapState::kActive : elsewhere});
+  }
+  return extents;
+}
+
+Eigen::AlignedBox3d SubmapCollection::windowBox() const {
+  const Window& window = map_.window();
+  return boxInW({window.origin, (window.origin.array() + window.blocks_per_axis - 1).matrix().eval()});
+}
+
+Eigen::AlignedBox3d SubmapCollection::boxInW(const BlockBox& blocks) const {
+  return {block_m_ * blocks.min().cast<double>(),
+          block_m_ * (blocks.max().array() + 1).matrix().cast<double>()};
+}
+
+std::vector<BlockIndex> SubmapCollection::storedGroups() const {
+  BlockSet groups;
+  for (const Submap& submap : submaps_) {
+    for (const auto& [group, count] : submap.stored) groups.insert(group);
+  }
+  return {groups.begin(), groups.end()};
+}
+
 bool SubmapCollection::isInPool(const BlockBox& box) const {
-  const BlockIndex first = groupOf(box.min(), edge_).array() - 1, last = groupOf(box.max(), edge_).array() + 1;
+  const BlockIndex first = groupOf(box.min(), edge_).array() - 1,
+                   last = groupOf(box.max(), edge_).array() + 1;
   for (int z = first.z(); z <= last.z(); ++z) {
     for (int y = first.y(); y <= last.y(); ++y) {
       for (int x = first.x(); x <= last.x(); ++x) {

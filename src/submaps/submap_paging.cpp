@@ -18,8 +18,8 @@ constexpr double kAhead_m = 1.0;  // beyond the view, from where on groups are r
 // The greatest multiple of the edge that is not above the number.
 int alignedDown(int number, int edge) { return (number >= 0 ? number : number - edge + 1) / edge * edge; }
 
-// Where, along an axis, a window of n blocks begins that has the blocks from `first` to `last` inside and lies
-// on the grid of groups.
+// Where, along an axis, a window of n blocks begins that has the blocks from `first` to `last` inside and
+// lies on the grid of groups.
 int movedAlong(int origin, int n, int first, int last, int edge) {
   const bool fits = last - first + 1 + 2 * edge <= n;
   if (!fits) {
@@ -103,7 +103,8 @@ void SubmapCollection::makeRoom(size_t slots) {
   }
   std::vector<Candidate> hidden;
   for (auto& [index, candidate] : groups) {
-    if (!isSeen(index)) hidden.push_back({distance_m(index, view_->box().center()), index, std::move(candidate.slots)});
+    if (!isSeen(index))
+      hidden.push_back({distance_m(index, view_->box().center()), index, std::move(candidate.slots)});
   }
   std::sort(hidden.begin(), hidden.end(),
             [](const Candidate& a, const Candidate& b) { return a.distance_m > b.distance_m; });

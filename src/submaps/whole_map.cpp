@@ -5,14 +5,13 @@
 namespace depth_fusion {
 
 WholeMap::WholeMap(SubmapCollection& submaps, const Groups* only)
-    : layers_(submaps.layers_),
-      block_size_(submaps.map_.parameters().block_size),
-      active_(submaps.active_) {
+    : layers_(submaps.layers_), block_size_(submaps.map_.parameters().block_size), active_(submaps.active_) {
   const SlotTable& slots = submaps.map_.slots();
   std::vector<int> wanted;
   for (int slot = 0; slot < slots.bound(); ++slot) {
     if (!slots.inUse(slot)) continue;
-    if (only == nullptr || only->count(groupOf(slots.blockOf(slot), submaps.edge_)) > 0) wanted.push_back(slot);
+    if (only == nullptr || only->count(groupOf(slots.blockOf(slot), submaps.edge_)) > 0)
+      wanted.push_back(slot);
   }
   in_pool_ = groupsIn(submaps.map_, layers_, wanted);
   std::vector<GroupKey> keys;

@@ -129,6 +129,14 @@ WorldParts::WorldParts(ComputeContext& compute, SubmapCollection& submaps)
 
 WorldParts::~WorldParts() = default;
 
+std::vector<BlockBox> WorldParts::boxes() const {
+  const int edge = groupEdge(submaps_.map().parameters().block_size);
+  std::vector<BlockBox> boxes;
+  for (const BlockIndex& group : submaps_.storedGroups())
+    boxes.emplace_back(edge * group, (edge * group.array() + edge - 1).matrix().eval());
+  return boxes;
+}
+
 BlockMap* WorldParts::load(const BlockBox& box) {
   if (submaps_.isInPool(box)) return nullptr;
   const int edge_blocks = box.sizes().maxCoeff() + 1;

@@ -78,14 +78,26 @@ void MeshChunks::follow() {
   const MapChanges changes = changes_.take();
   if (changes.generation != generation_) forgetAll();
   generation_ = changes.generation;
-  if (changes.complete) noteShown();
+  if (changes.complete) {
+    noteShown();
+    noteElsewhere();
+  }
   for (const BlockIndex& block : changes.updated) noteAround(block);
   for (const BlockIndex& block : changes.released) noteAround(block);
   for (const BlockIndex& block : changes.evicted) noteAround(block);
 }
 
+void MeshChunks::noteElsewhere() {
+  if (elsewhere_ == nullptr) return;
+  for (const BlockBox& box : elsewhere_->boxes()) {
+    noteAround(box.min());
+    noteAround(box.max());
+  }
+}
+
 void MeshChunks::noteAll() {
   noteShown();
+  noteElsewhere();
   for (const SlotTable::Block& block : map_.slots().blocks()) noteAround(block.index);
 }
 
@@ -145,7 +157,7 @@ std::vector<MeshChunk> MeshChunks::takeChanged(size_t max_count) {
   follow();
   std::vector<MeshChunk> chunks;
   for (Extraction& extraction : takeExtractions(max_count)) {
-    BlockMap* elsewhere = elsewhere_ ? elsewhere_(boxOf(extraction.chunk)) : nullptr;
+    BlockMap* elsewhere = elsewhere_ ? elsewhere_->load(boxOf(extraction.chunk)) : nullptr;
     TriangleMesh mesh =
         elsewhere ? extractFrom(*elsewhere, extraction.chunk) : extract(*kernels_, map_, extraction);
     const bool had_surface = has_surface_.erase(extraction.chunk) > 0;

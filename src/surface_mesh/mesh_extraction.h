@@ -7,8 +7,8 @@
 
 namespace depth_fusion {
 
-// Counts the vertices and triangles of the blocks, which are in Morton order, and leaves out of the list those
-// without any; lends_only blocks have vertices but no triangles.
+// Counts the vertices and triangles of the blocks, which are in Morton order, and leaves out of the list
+// those without any; lends_only blocks have vertices but no triangles.
 void countBlocks(SurfaceMeshKernels& kernels, const BlockIndex& origin, std::vector<MeshBlock>& blocks);
 
 // Numbers the vertices of blocks that are counted. Throws Error if there are too many.

@@ -46,8 +46,8 @@ class BlockMap {
   BlockMap(ComputeContext& compute, const MapParameters& parameters);
   ~BlockMap();
 
-  // Is asked for blocks before they are made: takes those out of the list that are kept elsewhere, and inserts
-  // them; returns those of them that there is no room for.
+  // Is asked for blocks before they are made: takes those out of the list that are kept elsewhere, and
+  // inserts them; returns those of them that there is no room for.
   using BringBack = std::function<std::vector<BlockIndex>(std::vector<BlockIndex>& requested)>;
 
   // Empties the map and places the middle of the window at the block with the point centre_W, or its first
@@ -93,8 +93,8 @@ class BlockMap {
   // call returns.
   std::unique_ptr<BlockMap> snapshot(const std::vector<std::string>& layers) const;
 
-  // The contents of slots in use, block by block: a layer's voxels, and the states. Throw Error for a layer that
-  // the map does not have.
+  // The contents of slots in use, block by block: a layer's voxels, and the states. Throw Error for a layer
+  // that the map does not have.
   std::string voxels(const std::string& layer, const std::vector<int>& slots);
   void setVoxels(const std::string& layer, const std::vector<int>& slots, const std::string& voxels);
   std::vector<int> states(const std::vector<int>& slots) const;

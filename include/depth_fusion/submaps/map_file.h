@@ -32,7 +32,7 @@ struct LoadedMap {
 
 // What a save wrote, and what is there now.
 struct SaveReport {
-  std::string place;            // for messages
+  std::string place;  // for messages
   uint32_t submaps = 0;
   uint64_t blocks = 0;          // of the map
   uint64_t blocks_written = 0;  // those that had changed, and their neighbours
@@ -116,8 +116,9 @@ class ReadMap {
   void readSubmap(const Database& database, DatabaseReader& reader, uint32_t submap,
                   const std::vector<LayerRow>& layers);
   // The row of another layer of a group of these blocks: cleared ones where the map does not have the layer.
-  std::string otherRow(const Database& database, DatabaseReader& reader, uint32_t submap, const LayerRow& layer,
-                       const BlockIndex& index, const std::vector<BlockIndex>& blocks) const;
+  std::string otherRow(const Database& database, DatabaseReader& reader, uint32_t submap,
+                       const LayerRow& layer, const BlockIndex& index,
+                       const std::vector<BlockIndex>& blocks) const;
   void checkSubmaps(const std::string& name) const;
 
   int block_size_;

@@ -22,6 +22,13 @@ class BlockStore;
 class ViewVolume;
 struct BlockGroup;
 
+enum class SubmapState { kActive, kInMemory, kInStore };
+
+struct SubmapExtent {
+  Eigen::AlignedBox3d box_W;  // about the submap's blocks
+  SubmapState state;          // kInStore: some of it is
+};
+
 // What is measured goes to the active submap. It ends where the sensor leaves its window: then a submap that
 // the sensor is in, and whose place is sure enough, is active again, or another one begins. Blocks that the
 // map's window or pool does not hold are in a store, by submap, and come back before they are seen. Submaps
@@ -43,13 +50,20 @@ class SubmapCollection {
 
   // Clears what is in the region, a part of the box of W, in all submaps: nothing is known of it afterwards.
   // Returns how many blocks had a part in it. Throws Error if blocks cannot be read.
-  size_t clear(const Eigen::AlignedBox3d& box_W, const std::function<bool(const Eigen::Vector3d& p_W)>& isInside);
+  size_t clear(const Eigen::AlignedBox3d& box_W,
+               const std::function<bool(const Eigen::Vector3d& p_W)>& isInside);
 
+  // The groups of blocks that are in the store, counted as row keys have them.
+  std::vector<BlockIndex> storedGroups() const;
   // Whether no blocks in the box or the groups about it are elsewhere than in the pool.
   bool isInPool(const BlockBox& box) const;
 
   // The submaps, in the order in which they began, with the blocks that they have in the pool and elsewhere.
   std::vector<SubmapDescription> submaps() const;
+  // Those that have blocks.
+  std::vector<SubmapExtent> extents() const;
+  // The map's window.
+  Eigen::AlignedBox3d windowBox() const;
   uint32_t active() const { return active_; }
   BlockMap& map() { return map_; }
   const BlockMap& map() const { return map_; }
@@ -79,8 +93,9 @@ class SubmapCollection {
   void clearInPool(const BlockBox& box, const Edit& edit);
   void clearInStore(const BlockBox& box, const Edit& edit);
   // Takes in submaps that are stored, in place of what there is.
-  void adopt(const MapDescription& description, std::vector<GroupSizes> stored, std::unique_ptr<BlockStore> store,
-             const Window& window);
+  void adopt(const MapDescription& description, std::vector<GroupSizes> stored,
+             std::unique_ptr<BlockStore> store, const Window& window);
+  Eigen::AlignedBox3d boxInW(const BlockBox& blocks) const;
   // Forgets everything if the map was emptied.
   void follow();
   // Another submap begins, and is active.

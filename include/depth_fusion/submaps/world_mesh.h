@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "depth_fusion/submaps/submap_collection.h"
+#include "depth_fusion/surface_mesh/mesh_chunks.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 
 namespace depth_fusion {
@@ -20,30 +21,33 @@ class WorldSnapshot {
   bool hasColor() const { return parameters_.color; }
 
  private:
-  friend MeshStatistics exportWorldMesh(ComputeContext&, WorldSnapshot&, MeshSink&, const SurfaceMeshParameters&,
-                                        bool, const std::function<void(double)>&);
+  friend MeshStatistics exportWorldMesh(ComputeContext&, WorldSnapshot&, MeshSink&,
+                                        const SurfaceMeshParameters&, bool,
+                                        const std::function<void(double)>&);
   MapParameters parameters_;
   std::unique_ptr<WholeMap> blocks_;
 };
 
 // Exports the surface in memory that does not depend on the map's size but for some 100 bytes a group of
-// blocks and 40 a block. `progress` is called with the share that is done, and throws to give up. Throws Error
-// as exportSurfaceMesh does, and if blocks cannot be read.
+// blocks and 40 a block. `progress` is called with the share that is done, and throws to give up. Throws
+// Error as exportSurfaceMesh does, and if blocks cannot be read.
 MeshStatistics exportWorldMesh(ComputeContext& compute, WorldSnapshot& world, MeshSink& sink,
                                const SurfaceMeshParameters& parameters, bool with_color,
                                const std::function<void(double)>& progress = nullptr);
 
 // Parts of a map that are not in the pool, for whoever follows the map chunk by chunk.
-class WorldParts {
+class WorldParts final : public MeshChunks::Elsewhere {
  public:
   // Keeps references.
   WorldParts(ComputeContext& compute, SubmapCollection& submaps);
-  ~WorldParts();
+  ~WorldParts() override;
 
-  // A map that has the blocks of the box, and those about it, until the next call; null if the pool has all that
-  // there are. The boxes are cubes of the same size. Whoever calls it holds what guards the map. Throws Error if
-  // blocks cannot be read.
-  BlockMap* load(const BlockBox& box);
+  // Of groups of blocks, each no larger than a chunk.
+  std::vector<BlockBox> boxes() const override;
+  // A map that has the blocks of the box, and those about it, until the next call; null if the pool has all
+  // that there are. The boxes are cubes of the same size. Whoever calls it holds what guards the map. Throws
+  // Error if blocks cannot be read.
+  BlockMap* load(const BlockBox& box) override;
 
  private:
   class Loading;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <unordered_set>
 #include <vector>
@@ -34,11 +33,18 @@ class MeshChunks {
              int blocks_per_axis = 16);
   ~MeshChunks();
 
-  // Gives a map that has the blocks of a box, and those about it, where the map that is followed does not have all
-  // that there are; null where it has.
-  using Elsewhere = std::function<BlockMap*(const BlockBox& box)>;
-  // Chunks of which a part is elsewhere are extracted from there, always from the same map.
-  void lookElsewhere(Elsewhere elsewhere) { elsewhere_ = std::move(elsewhere); }
+  // Blocks that belong to the map, and are not in it now.
+  class Elsewhere {
+   public:
+    virtual ~Elsewhere() = default;
+    // Boxes that have all of them.
+    virtual std::vector<BlockBox> boxes() const = 0;
+    // A map that has the blocks of a cube, which is of the size of a chunk, and those about it, until the
+    // next call: always the same one; null if the map that is followed has all that there are.
+    virtual BlockMap* load(const BlockBox& box) = 0;
+  };
+  // Chunks of which a part is elsewhere are extracted from there.
+  void lookElsewhere(std::unique_ptr<Elsewhere> elsewhere) { elsewhere_ = std::move(elsewhere); }
 
   // Takes note of what changed in the map since the last call. After a reset of the map all chunks are
   // forgotten; none is reported as gone.
@@ -77,6 +83,7 @@ class MeshChunks {
   // voxels.
   void noteAround(const BlockIndex& block);
   void noteShown();
+  void noteElsewhere();
   void forgetAll();
   // The next chunks to be extracted, with their blocks.
   std::vector<Extraction> takeExtractions(size_t max_count);
@@ -88,12 +95,12 @@ class MeshChunks {
   ComputeContext& compute_;
   BlockMap& map_;
   SurfaceMeshParameters parameters_;
-  Elsewhere elsewhere_;
+  std::unique_ptr<Elsewhere> elsewhere_;  // null: nothing is elsewhere
   MapSubscription changes_;
   uint32_t generation_ = 0;
   int blocks_per_axis_;
   std::unique_ptr<SurfaceMeshKernels> kernels_, kernels_elsewhere_;  // the latter when they are needed
-  std::deque<MeshChunkIndex> changed_;  // in the order of their first change
+  std::deque<MeshChunkIndex> changed_;                               // in the order of their first change
   ChunkSet is_changed_;
   ChunkSet has_surface_;                 // as reported last
   std::vector<MeshChunkIndex> in_turn_;  // chunks that noteNext() has still to come to

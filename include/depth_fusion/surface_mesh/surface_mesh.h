@@ -18,15 +18,15 @@ struct MeshStatistics {
 class MeshSource {
  public:
   virtual ~MeshSource() = default;
-  // Boxes that have all the blocks between them. If there are several, they are cubes of the same size, a power
-  // of two, on a grid from the origin on.
+  // Boxes that have all the blocks between them. If there are several, they are cubes of the same size, a
+  // power of two, on a grid from the origin on.
   virtual std::vector<BlockBox> parts() = 0;
   // No block is before it in any axis.
   virtual BlockIndex origin() const = 0;
   // The map that the parts are loaded into.
   virtual BlockMap& map() = 0;
-  // Has map() hold a part's blocks, and around them one before and two after in each axis; `done` is the share of
-  // the export that is done. Throws to give up.
+  // Has map() hold a part's blocks, and around them one before and two after in each axis; `done` is the
+  // share of the export that is done. Throws to give up.
   virtual void load(const BlockBox& part, double done) = 0;
 };
 
@@ -38,7 +38,8 @@ class MeshSource {
 MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockMap& map, MeshSink& sink,
                                  SurfaceMeshParameters parameters = {});
 
-// The same of a map that comes part by part. The order of vertices and triangles depends on the source's origin.
+// The same of a map that comes part by part. The order of vertices and triangles depends on the source's
+// origin.
 MeshStatistics exportSurfaceMesh(ComputeContext& compute, MeshSource& source, MeshSink& sink,
                                  SurfaceMeshParameters parameters = {});
 

@@ -3,8 +3,8 @@
 #include <functional>
 #include <iostream>
 
-#include "depth_fusion/surface_mesh/ply.h"
 #include "depth_fusion/submaps/world_mesh.h"
+#include "depth_fusion/surface_mesh/ply.h"
 
 namespace depth_fusion {
 namespace {

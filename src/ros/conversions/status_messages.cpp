@@ -50,6 +50,15 @@ void setUsage(MapStatus& status, const BlockMap::Usage& usage) {
   status.pool_bytes = usage.pool_bytes;
 }
 
+void setUsage(MapStatus& status, const std::vector<SubmapDescription>& submaps, const StoreUsage& store) {
+  status.submaps = static_cast<uint32_t>(submaps.size());
+  uint64_t blocks = 0;
+  for (const SubmapDescription& submap : submaps) blocks += submap.blocks;
+  status.blocks_elsewhere = blocks - std::min<uint64_t>(blocks, status.blocks);
+  status.memory_bytes = store.memory_bytes;
+  status.disk_bytes = store.disk_bytes;
+}
+
 void diagnose(const TrackerStatus& tracker, const std::string& problem, const std::string& advice,
               diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (!problem.empty()) {
@@ -74,16 +83,16 @@ void diagnose(const MapStatus& map, const std::string& problem,
     status.summary(DiagnosticStatus::WARN, problem);
   } else if (map.blocks_left_out > 0) {
     status.summary(DiagnosticStatus::ERROR, map.reason);
-  } else if (used > 0.9) {
-    status.summary(
-        DiagnosticStatus::WARN,
-        "the pool of voxels is nearly full; raise map/pool_mib or map/voxel_size_m, or reset_volume");
   } else if (!map.reason.empty()) {
     status.summary(DiagnosticStatus::WARN, map.reason);
   }
   status.add("blocks", map.blocks);
   status.add("blocks left out", map.blocks_left_out);
   status.addf("pool used", "%.1f %%", 100.0 * used);
+  status.add("submaps", map.submaps);
+  status.add("blocks elsewhere", map.blocks_elsewhere);
+  status.addf("elsewhere in memory, MiB", "%.1f", static_cast<double>(map.memory_bytes) / (1 << 20));
+  status.addf("elsewhere in the store, MiB", "%.1f", static_cast<double>(map.disk_bytes) / (1 << 20));
   status.addf("map MiB", "%.1f", static_cast<double>(map.bytes) / (1 << 20));
 }
 

@@ -21,7 +21,7 @@ void FrameMapper::setParameters(const PipelineParameters& parameters) {
 MappingOutcome FrameMapper::map(const TrackedFrame& frame, FusedMap& map, bool resets_on_jump,
                                 StageTimers& timers) {
   prepare(frame.sensor->rgbd.intrinsics);
-  const MapState state{map.map().generation(), map.map().slots().used() == 0};
+  const MapState state{map.map().generation(), map.isEmpty()};
   const Admission admission = admission_.admit(frame, state, resets_on_jump);
   if (!admission.fuse) return {admission.may_predict_from, false, admission.reason};
   if (admission.begins_map) empty(map);
@@ -53,7 +53,9 @@ MappingOutcome FrameMapper::fuse(const TrackedFrame& frame, FusedMap& map, Stage
   const MappingResult result = map.mapper(camera_).fuse(rgbd, depth, T_W_D, admission_.isExternal(), timers);
   if (!result.fusion.fused()) return {false, false, notFusedReason()};
   last_pose_ = {rgbd.stamp_s, T_W_D};
-  return {true, true, leftOutReason(result), result.fusion.blocks_requested - result.fusion.blocks_allocated};
+  const std::string problem = map.submaps().problem();
+  return {true, true, problem.empty() ? leftOutReason(result) : problem,
+          result.fusion.blocks_requested - result.fusion.blocks_allocated};
 }
 
 void FrameMapper::render(const TrackedFrame& frame, FusedMap& map, StageTimers& timers) {

@@ -18,11 +18,15 @@ std::shared_ptr<ComputeContext> sharedCompute(const std::string& device);
 class FusedMap {
  public:
   FusedMap(ComputeContext& compute, const PipelineParameters& parameters)
-      : compute_(compute), parameters_(parameters), map_(compute, parameters.map), submaps_(map_, parameters.submaps) {}
+      : compute_(compute),
+        parameters_(parameters),
+        map_(compute, parameters.map),
+        submaps_(map_, parameters.submaps) {}
 
   // The part of it that is in the pool.
   BlockMap& map() { return map_; }
   SubmapCollection& submaps() { return submaps_; }
+  bool isEmpty() const { return map_.slots().used() == 0 && submaps_.blockCount() == 0; }
   // The mapper for frames of that camera, until the next call or reset(). Throws Error if the device cannot.
   Mapper& mapper(const CameraIntrinsics& camera);
   // Where the camera was when the last frame was fused; the origin of a map without frames.

@@ -25,6 +25,7 @@ ParameterTable TsdfFusionNodeletParameters::table() {
 
 std::vector<std::pair<std::string, ParameterTable>> TsdfFusionNodeletParameters::stages() {
   return {{"map", pipeline.map.table()},
+          {"submaps", pipeline.submaps.table()},
           {"registration", rgbd.registration.table()},
           {"depth_sensor", pipeline.depth_sensor.table()},
           {"preprocessing", pipeline.preprocessing.table()},

@@ -2,6 +2,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "depth_fusion/submaps/world_mesh.h"
 #include "depth_fusion/surface_mesh/simplification.h"
 #include "ros/conversions/surface_messages.h"
 
@@ -23,6 +24,7 @@ LiveSurface::LiveSurface(const std::shared_ptr<SharedMap>& map, const LiveSurfac
     : parameters_(live), map_(map) {
   map->locked([&](FusedMap& fused) {
     chunks_ = std::make_unique<MeshChunks>(*map->compute, fused.map(), mesh, live.chunk_blocks);
+    chunks_->lookElsewhere(std::make_unique<WorldParts>(*map->compute, fused.submaps()));
   });
 }
 

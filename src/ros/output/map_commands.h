@@ -1,4 +1,4 @@
-// The services by which a user commands a live map: reset_volume and set_mode.
+// The services by which a user commands a live map: reset_volume, clear_region and set_mode.
 #pragma once
 
 #include <depth_fusion/SetMode.h>
@@ -7,10 +7,12 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "ros/callbacks/callback_gate.h"
 #include "ros/in_process/frame_mapper.h"
+#include "ros/output/region_clearing.h"
 
 namespace depth_fusion {
 
@@ -25,12 +27,15 @@ class MapCommands {
 
  private:
   bool reset(std_srvs::Trigger::Response& response);
+  bool clear(const ClearRegion::Request& request, ClearRegion::Response& response);
   bool setMode(const SetMode::Request& request, SetMode::Response& response);
 
   const std::shared_ptr<SharedMap> map_;
   FrameMapper& mapper_;
   const AnnounceMap announce_;
-  ros::ServiceServer reset_server_, mode_server_;
+  std::mutex region_mutex_;
+  RegionClearing region_;
+  ros::ServiceServer reset_server_, region_server_, mode_server_;
 };
 
 }  // namespace depth_fusion

@@ -102,7 +102,7 @@ std::optional<SaveReport> MapKeeper::save(const std::string& place, bool only_ch
   saver_->prepare();
   uint32_t generation = 0;
   map_->locked([&](FusedMap& fused) {
-    check(fused.submaps().blockCount() > 0, "the map is empty; nothing was saved");
+    check(!fused.isEmpty(), "the map is empty; nothing was saved");
     generation = fused.map().generation();
     saver_->capture(fused.submaps(), mapper_.describe(fused), map_->keyframesOf(generation));
   });
@@ -147,9 +147,8 @@ void MapKeeper::saveKept() {
 }
 
 bool MapKeeper::isKept() {
-  const auto [generation, is_empty] = map_->locked([](FusedMap& fused) {
-    return std::make_pair(fused.map().generation(), fused.submaps().blockCount() == 0);
-  });
+  const auto [generation, is_empty] =
+      map_->locked([](FusedMap& fused) { return std::make_pair(fused.map().generation(), fused.isEmpty()); });
   if (kept_generation_ != 0 && generation != kept_generation_) {
     kept_generation_ = 0;
     note("the map was emptied or replaced, and " + placeName(placeOf("")) +

@@ -16,7 +16,8 @@ MapReporter::MapReporter(const std::shared_ptr<SharedMap>& map, ros::NodeHandle&
           "model_view", kProcessQueue, [greet](const ros::SingleSubscriberPublisher&) { greet(); },
           ros::SubscriberStatusCallback(), callbacks.token())),
       status_publisher_(handle.advertise<MapStatus>("status", 100, true)),
-      picture_(handle) {
+      picture_(handle),
+      submap_markers_(handle) {
   if (!view_frame.empty()) view_frame_.emplace(map->frame_id, view_frame);
 }
 
@@ -38,9 +39,12 @@ void MapReporter::publishStatus(const std_msgs::Header& header, const MappingOut
   status->mode = static_cast<uint8_t>(mapper.admission().mode());
   status->generation = map.map().generation();
   setUsage(*status, map.map().usage());
+  const SubmapCollection& submaps = map.submaps();
+  setUsage(*status, submaps.submaps(), submaps.usage());
   status->blocks_left_out = outcome.blocks_left_out;
   status->frames = frames;
   status_publisher_.publish(status);
+  if (const auto shared = map_.lock()) submap_markers_.publish(shared->frame_id, submaps);
   const std::lock_guard<std::mutex> lock(mutex_);
   status_ = *status;
 }

@@ -14,6 +14,7 @@
 #include "ros/callbacks/callback_gate.h"
 #include "ros/in_process/frame_mapper.h"
 #include "ros/output/model_picture.h"
+#include "ros/output/submap_markers.h"
 #include "ros/output/view_frame.h"
 
 namespace depth_fusion {
@@ -45,6 +46,7 @@ class MapReporter {
   std::weak_ptr<SharedMap> map_;
   ros::Publisher view_publisher_, status_publisher_;
   ModelPicture picture_;
+  SubmapMarkers submap_markers_;
   std::optional<ViewFrame> view_frame_;
 
   std::mutex mutex_;

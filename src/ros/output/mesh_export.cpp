@@ -1,17 +1,19 @@
 #include "ros/output/mesh_export.h"
 
+#include <ros/console.h>
 #include <wordexp.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/submaps/world_mesh.h"
 #include "depth_fusion/surface_mesh/mesh_file.h"
 #include "depth_fusion/surface_mesh/simplification.h"
-#include "depth_fusion/surface_mesh/surface_mesh.h"
 
 namespace depth_fusion {
 namespace {
@@ -102,15 +104,15 @@ void checkFolder(const std::string& path) {
   check(!fs::is_directory(path), path + " is a folder; give the name of a file");
 }
 
-std::unique_ptr<BlockMap> snapshotOf(SharedMap& map, bool with_color) {
-  std::vector<std::string> layers = {kTsdfLayer};
-  if (with_color) layers.push_back(kColorLayer);
-  std::unique_ptr<BlockMap> snapshot = map.locked([&](FusedMap& fused) {
-    check(fused.map().slots().used() > 0, kNoSurface);
-    return fused.map().snapshot(layers);
+std::unique_ptr<WorldSnapshot> snapshotOf(SharedMap& map) {
+  return map.locked([&](FusedMap& fused) {
+    check(!fused.isEmpty(), kNoSurface);
+    return std::make_unique<WorldSnapshot>(fused.submaps());
   });
-  snapshot->offsets().read<int>(1);  // returns when the copy is made
-  return snapshot;
+}
+
+void sayProgress(double done) {
+  ROS_INFO_STREAM_THROTTLE(2.0, "export_mesh: " << std::lround(100.0 * done) << " %");
 }
 
 }  // namespace
@@ -128,22 +130,22 @@ ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& reque
   const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format);
   CountingSink sink(*file);
 
-  const std::unique_ptr<BlockMap> snapshot = snapshotOf(map, request.color);
+  const std::unique_ptr<WorldSnapshot> snapshot = snapshotOf(map);
   const std::unique_ptr<ComputeContext> queue = map.compute->anotherQueue();
   SurfaceMeshParameters batches = parameters;
   batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);
   if (share < 1.0) {
     TriangleMesh mesh;
-    exportSurfaceMesh(*queue, *snapshot, mesh, batches);
+    exportWorldMesh(*queue, *snapshot, mesh, batches, request.color, sayProgress);
     sendMesh(simplified(mesh, share), sink);
   } else {
-    exportSurfaceMesh(*queue, *snapshot, sink, batches);
+    exportWorldMesh(*queue, *snapshot, sink, batches, request.color, sayProgress);
   }
 
   ExportMesh::Response response;
   response.success = true;
   response.message = path;
-  if (request.color && !snapshot->hasLayer(kColorLayer))
+  if (request.color && !snapshot->hasColor())
     response.message += "; without colour, for the map has none: start with color:=true (map/color)";
   response.vertices = sink.size().vertices;
   response.triangles = sink.size().triangles;
