@@ -309,10 +309,12 @@ void BlockStore::boundAhead() {
 
 BlockStore::KeyedRows BlockStore::oldestRows() {
   KeyedRows oldest;
+  std::set<GroupKey> chosen;  // a group that was put again stands there twice
   for (size_t bytes = 0; bytes < kBatchBytes && !by_age_.empty(); by_age_.pop_front()) {
     const GroupKey& key = by_age_.front();
     const auto found = entries_.find(key);
-    if (found == entries_.end() || found->second.rows == nullptr || found->second.database_bytes > 0)
+    if (found == entries_.end() || found->second.rows == nullptr || found->second.database_bytes > 0 ||
+        !chosen.insert(key).second)
       continue;
     bytes += bytesOf(found->second.rows);
     oldest.emplace_back(key, found->second.rows);

@@ -197,6 +197,7 @@ SubmapCollection::BlockGroups SubmapCollection::takeFromStore(const BlockIndex& 
 }
 
 std::vector<BlockIndex> SubmapCollection::bringBackRequested(std::vector<BlockIndex>& requested) {
+  makeRoom(requested.size());
   if (absent_.empty()) return {};
   BlockSet groups;
   for (const BlockIndex& block : requested) {

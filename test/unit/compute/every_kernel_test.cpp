@@ -172,6 +172,14 @@ TEST_F(EveryKernel, OfAMapThatIsFull) {
   EXPECT_LT(map.usage().capacity, blocks.size());
 }
 
+TEST_F(EveryKernel, OfBlocksThatComeAndGo) {
+  BlockMap map(compute, smallParameters().map);
+  const std::vector<int> slots = map.insert({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  map.setVoxels(kTsdfLayer, slots, map.voxels(kTsdfLayer, slots));
+  map.evict(slots);
+  EXPECT_EQ(map.usage().blocks, 0u);
+}
+
 TEST_F(EveryKernel, OfAListOfRequestsThatIsFull) {
   constexpr int kCapacity = 4;
   const PipelineParameters parameters = smallParameters();

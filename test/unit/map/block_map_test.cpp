@@ -229,6 +229,61 @@ TEST(BlockMap, TellsItsFollowersOfWhatItDoes) {
   EXPECT_TRUE(anew.complete && anew.updated.empty());
 }
 
+TEST(BlockMap, EvictedBlocksLeaveAndOthersStayWhereTheWindowMoves) {
+  BlockMap map(compute(), mapParameters(4, 8, 1));
+  const BlockIndex origin = map.window().origin;
+  const std::vector<BlockIndex> blocks = {origin, origin + BlockIndex(3, 3, 3), origin + BlockIndex(2, 1, 0)};
+  ASSERT_EQ(allocate(map, blocks), 3u);
+  const int first = map.slots().blocks().front().slot;
+  ASSERT_EQ(map.slots().blockOf(first), origin);
+  EXPECT_THROW(map.moveWindow(origin + BlockIndex(1, 0, 0)), Error)
+      << "it would leave the first block behind";
+  map.evict({first});
+  map.moveWindow(origin + BlockIndex(2, 0, 0));
+  EXPECT_EQ(map.usage().blocks, 2u);
+  expectConsistent(map);
+  ASSERT_EQ(allocate(map, {origin + BlockIndex(5, 3, 2)}), 1u);
+  expectConsistent(map);
+}
+
+TEST(BlockMap, ContentsOfSlotsGoOutAndIn) {
+  MapParameters parameters = mapParameters(32, 8, 8);
+  parameters.color = true;
+  BlockMap map(compute(), parameters);
+  std::vector<BlockIndex> blocks = windowBlocks(map);
+  blocks.resize(5000);  // several transfers
+  const std::vector<int> slots = map.insert(blocks);
+  std::mt19937 random(7);
+  for (const char* layer : {kTsdfLayer, kColorLayer}) {
+    std::string voxels(slots.size() * 512 * (layer == kTsdfLayer ? 2 : 4), '\0');
+    for (char& byte : voxels) byte = static_cast<char>(random());
+    map.setVoxels(layer, slots, voxels);
+    EXPECT_EQ(map.voxels(layer, slots), voxels);
+    const std::vector<int> some = {slots[4999], slots[17], slots[2500]};
+    const size_t bytes = voxels.size() / slots.size();
+    EXPECT_EQ(map.voxels(layer, some), voxels.substr(4999 * bytes, bytes) + voxels.substr(17 * bytes, bytes) +
+                                           voxels.substr(2500 * bytes, bytes));
+  }
+  std::vector<int> states;
+  for (size_t i = 0; i < slots.size(); ++i) states.push_back(static_cast<int>(random() % 512));
+  map.setStates(slots, states);
+  EXPECT_EQ(map.states(slots), states);
+}
+
+TEST(BlockMap, AsksForBlocksThatAreKeptElsewhereBeforeItMakesThem) {
+  BlockMap map(compute(), mapParameters(4, 8, 1));
+  const BlockIndex kept(0, 0, 0), made(1, 0, 0), away(0, 1, 0);
+  map.bringBackBy([&](std::vector<BlockIndex>& requested) {
+    EXPECT_EQ(requested.size(), 3u);
+    map.insert({kept});
+    requested = {made};
+    return std::vector<BlockIndex>{away};
+  });
+  EXPECT_EQ(allocate(map, {kept, made, away}), 2u);
+  EXPECT_EQ(map.usage().blocks, 2u);
+  expectConsistent(map);
+}
+
 TEST(BlockMap, PlacesTheWindowOfAnEmptyMapOnly) {
   BlockMap map(compute(), mapParameters(4, 8, 1));
   const uint32_t generation = map.generation();

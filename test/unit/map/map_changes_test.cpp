@@ -34,6 +34,12 @@ class MapOfBlocks {
     slots.release({slot});
     log.noteReleased({slot});
   }
+  void evict(int i) {
+    const int slot = slotOf(i);
+    slots.release({slot});
+    log.noteEvicted({slot});
+  }
+  void bringBack(int i) { log.noteReturned(slots.take({block(i)})); }
   void reset() {
     slots.clear();
     log.noteReset();
@@ -144,6 +150,32 @@ TEST(MapChanges, TellWhoHasMissedTooMuchOfEverythingOnce) {
   const MapChanges after = slow.take();
   EXPECT_FALSE(after.complete);
   EXPECT_EQ(after.updated, (std::vector<BlockIndex>{block(50)}));
+}
+
+// What has left memory is told of if it had changed, and only then.
+TEST(MapChanges, TellWhatChangedBeforeItWasEvicted) {
+  MapOfBlocks map;
+  map.allocate(0, 4);
+  MapSubscription follower = map.log.subscribe();
+  follower.take();
+  map.update(1);
+  map.evict(1);
+  map.evict(2);
+  MapChanges changes = follower.take();
+  EXPECT_EQ(changes.evicted, (std::vector<BlockIndex>{block(1)}));
+  EXPECT_TRUE(changes.updated.empty() && changes.released.empty());
+  // It comes back as it was, which is no change, and goes again.
+  map.bringBack(1);
+  EXPECT_TRUE(follower.take().updated.empty());
+  map.evict(1);
+  changes = follower.take();
+  EXPECT_TRUE(changes.evicted.empty() && changes.updated.empty());
+  map.bringBack(1);
+  map.update(1);
+  map.release(1);
+  EXPECT_EQ(follower.take().released, (std::vector<BlockIndex>{block(1)}));
+  map.log.noteChangedElsewhere({block(2)});
+  EXPECT_EQ(follower.take().evicted, (std::vector<BlockIndex>{block(2)}));
 }
 
 TEST(MapChanges, BeginAnewAfterAReset) {

@@ -1,13 +1,12 @@
 // What is refused, what fails, and that nothing is lost by it.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <filesystem>
 #include <random>
 
 #include "submaps/row_keys.h"
 #include "support/expect_error.h"
+#include "support/full_disk.h"
 #include "support/map_file_fixture.h"
 #include "support/postgres_server.h"
 
@@ -110,21 +109,6 @@ TEST_F(MapRefusals, AFailedSaveIsMadeUpFor) {
   load(folder_ / "later/ball.map", other);
   expectSame(map_, other);
 }
-
-// No file of the process grows.
-class FullDisk {
- public:
-  FullDisk() {
-    signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit none{0, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &none);
-  }
-  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 TEST_F(MapRefusals, AFullDiskLosesNothing) {
   changing_.show(sphere({0.0, 0.0, 0.0}, 0.15));
