@@ -1,4 +1,5 @@
 // Maps of a live graph, saved and loaded by services, kept in a file from one start to the next.
+#include <depth_fusion/ClearRegion.h>
 #include <depth_fusion/LoadMap.h>
 #include <depth_fusion/SaveMap.h>
 
@@ -85,6 +86,29 @@ TEST_F(StoredMap, TheSensorIsFoundInTheFirstFrame) {
   const auto tracked = tracker_status_.awaitStamp(camera_.headerOf(again).stamp);
   EXPECT_EQ(tracked->state, TrackerStatus::TRACKING);
   EXPECT_GT(tracked->keyframes, 0u);
+}
+
+// A part of the map is forgotten where tf says that it is; the rest stays.
+TEST_F(StoredMap, ARegionIsClearedInAnyFrame) {
+  saveSomeFrames(path_);
+  const uint64_t blocks = map_status_.all().back()->blocks;
+  ClearRegion region;
+  region.request.pose.orientation.w = 1.0;
+  const auto clear = [&] {
+    EXPECT_TRUE(call<ClearRegion>("tsdf_fusion/clear_region", region.request, region.response));
+    return region.response;
+  };
+  EXPECT_FALSE(clear().success) << "it has no size";
+  region.request.radius = 0.1;
+  region.request.header.frame_id = "no_such_frame";
+  EXPECT_NE(clear().message.find("no_such_frame"), std::string::npos) << region.response.message;
+  region.request.header.frame_id = "map";
+  region.request.radius = 100.0;
+  EXPECT_TRUE(clear().success) << region.response.message;
+  EXPECT_EQ(region.response.blocks, blocks);
+  const SaveMap::Response nothing_left = save(folder_ / "cleared.map");
+  EXPECT_FALSE(nothing_left.success);
+  EXPECT_NE(nothing_left.message.find("empty"), std::string::npos) << nothing_left.message;
 }
 
 TEST_F(StoredMap, LocalisationChangesNoByte) {

@@ -38,7 +38,8 @@ class FusedRoom {
       : with_texture_(with_texture),
         parameters_(parameters),
         map_(compute(), parameters_.map),
-        mapper_(compute(), map_, parameters_, kCamera),
+        submaps_(map_, {}),
+        mapper_(compute(), map_, submaps_, parameters_, kCamera),
         session_(compute(), parameters_, kCamera,
                  [this](const Pose& T_W_D) -> const ModelView& { return mapper_.render(T_W_D, timers_); }) {
     TextureOdometry odometry(parameters_.texture_odometry, parameters_.depth_sensor);
@@ -51,7 +52,7 @@ class FusedRoom {
   }
   void prepareAhead(int i) { session_.prepareAhead(roomFrames()[i], textures_[i], timers_); }
   void fuse(int i, const Pose& T_W_D) {
-    ASSERT_TRUE(mapper_.fuse(roomFrames()[i], *session_.depth(), T_W_D, timers_).fusion.fused());
+    ASSERT_TRUE(mapper_.fuse(roomFrames()[i], *session_.depth(), T_W_D, false, timers_).fusion.fused());
     view_ = &mapper_.render(T_W_D, timers_);
   }
   // Tracks all frames and fuses all but one.
@@ -86,6 +87,7 @@ class FusedRoom {
   PipelineParameters parameters_;
   StageTimers timers_;
   BlockMap map_;
+  SubmapCollection submaps_;
   Mapper mapper_;
   TrackingSession session_;
   std::vector<TexturedFrame> textures_;

@@ -130,7 +130,8 @@ TEST_F(MeshChunksTest, parametersOutOfRangeAreErrors) {
 // released. The map is told of it by the mapper, as long as somebody follows.
 TEST(MeshChunksOfFusion, followEveryFrame) {
   BlockMap map(compute(), mapParameters());
-  Mapper mapper(compute(), map, {}, kCamera);
+  SubmapCollection submaps(map, {});
+  Mapper mapper(compute(), map, submaps, {}, kCamera);
   MeshChunks chunks(compute(), map, {}, 4);
   ChunkViewer viewer;
   size_t released = 0;
@@ -141,7 +142,7 @@ TEST(MeshChunksOfFusion, followEveryFrame) {
     rgbd.depth = frame < 5 ? bumpyDepth(1.2) : wallDepth(1.9);
     const View view = viewOf(rgbd.depth, somePose(0.1 * (frame % 3)));
     StageTimers timers;
-    released += mapper.fuse(rgbd, frameOf(view), view.T_W_D, timers).fusion.blocks_released;
+    released += mapper.fuse(rgbd, frameOf(view), view.T_W_D, true, timers).fusion.blocks_released;
     viewer.follow(chunks);
     viewer.expectTheWholeSurface(map);
   }
