@@ -165,7 +165,12 @@ void addTrackingBenchmark(CLI::App& app, TrackingBenchmark& options) {
   command->add_option("--starts", options.starts,
                       "so many starts at random frames and frame rates, in place of the table");
   command->add_option("--seed", options.seed, "of the random starts")->capture_default_str();
-  command->callback([&options] { options.starts > 0 ? runStarts(options) : runBenchmark(options); });
+  command->add_flag(
+      "--strides", options.strides,
+      "every second to sixth frame from each of the first ten and from frame 211 on, with texture and "
+      "without, in place of random starts");
+  command->callback(
+      [&options] { options.starts > 0 || options.strides ? runStarts(options) : runBenchmark(options); });
 }
 
 }  // namespace depth_fusion
