@@ -64,7 +64,8 @@ class StartJudge {
     PoseError error, step;
     if (!lost && T_W_truth) {
       const PosePair pair{stamp_s, tracking.T_W_D, *T_W_truth};
-      if (!first_) first_ = last_ = pair;
+      const bool begins_map = tracking.prior == "start";  // or begins it anew, in a place that is not known
+      if (begins_map || !first_) first_ = last_ = pair;
       error = errorBetween(*first_, pair);
       step = errorBetween(*last_, pair);
       last_ = pair;
