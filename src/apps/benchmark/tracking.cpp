@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/benchmark/noise.h"
 #include "apps/benchmark/starts.h"
 #include "apps/benchmark/tracking_inputs.h"
 #include "common/io/text_file.h"
@@ -169,8 +170,14 @@ void addTrackingBenchmark(CLI::App& app, TrackingBenchmark& options) {
       "--strides", options.strides,
       "every second to sixth frame from each of the first ten and from frame 211 on, with texture and "
       "without, in place of random starts");
-  command->callback(
-      [&options] { options.starts > 0 || options.strides ? runStarts(options) : runBenchmark(options); });
+  command->add_flag(
+      "--noise", options.noise,
+      "a rendered office and a large room with the noise of sensors, without texture in the office, in "
+      "place of the table");
+  command->callback([&options] {
+    if (options.noise) return runNoise(options);
+    options.starts > 0 || options.strides ? runStarts(options) : runBenchmark(options);
+  });
 }
 
 }  // namespace depth_fusion

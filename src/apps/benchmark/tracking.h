@@ -17,6 +17,7 @@ struct TrackingBenchmark {
   bool gates = false;
   size_t starts = 0;
   unsigned seed = 1;     // of the starts
+  bool noise = false;    // of sensors, in place of the table
   bool strides = false;  // every start of a list, in place of random ones
 };
 
