@@ -56,7 +56,8 @@ bool slides(const IcpTracker::Alignment& alignment, const DepthFrame& frame) {
 std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker::SystemPrior& prior,
                        const IcpTrackingParameters& parameters) {
   const IcpSystem& system = alignment.system;
-  const double fraction = system.source_points > 0.0 ? system.inliers / system.source_points : 0.0;
+  // The map of a few frames shows little of what is far; it is asked about what it does show.
+  const double fraction = system.covered_points > 0.0 ? system.inliers / system.covered_points : 0.0;
   const Pose T_prior_D = prior.T_M_D.inverse() * alignment.T_M_D;
   std::ostringstream reason;
   if (system.source_points < 1.0) {
@@ -67,7 +68,7 @@ std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker:
     reason << "only " << system.source_points << " points with depth and normal";
   } else if (system.inliers < parameters.min_inliers || fraction < parameters.min_inlier_fraction) {
     reason << "only " << system.inliers << " inliers, " << std::lround(100.0 * fraction)
-           << " % of the points";
+           << " % of the points that meet the map";
   } else if (!(system.rmse() <= parameters.max_rmse_m)) {
     reason << "rmse " << system.rmse() << " m";
   } else if (T_prior_D.translation().norm() > parameters.max_translation_m ||
