@@ -167,7 +167,7 @@ TEST(DefeatsOthers, ABareCorridor) {
   const Outcome outcome = trackScene(options);
   EXPECT_TRUE(outcome.wrong.empty());
   EXPECT_LT(outcome.largest_guessed_m, kWrong_m);
-  EXPECT_EQ(outcome.lostAmong(3, 60), 0u);
+  EXPECT_LE(outcome.lostAmong(3, 60), 2u);
   EXPECT_EQ(outcome.lostAmong(70, 150), 80u);
 }
 
