@@ -63,18 +63,18 @@ int DegeneracyAnalysis::freeUpTo(double threshold) const {
 
 std::string DegeneracyAnalysis::namesUpTo(double threshold) const {
   std::string names;
-  for (int i = 0; i < freeUpTo(threshold); ++i) {
-    // At the box's centre the shrunk translation is metric; the shrunk rotation is the motion at the box's
-    // border.
-    const Vector6d shrunk = eigenvectors_.col(i);
-    const bool slides = shrunk.tail<3>().norm() > shrunk.head<3>().norm();
-    const Eigen::Vector3d axis =
-        slides ? Eigen::Vector3d(shrunk.tail<3>()) : Eigen::Vector3d(shrunk.head<3>().cwiseQuotient(size_));
-    names += names.empty() ? "" : ", ";
-    names += slides ? "sliding along " : "rotating about ";
-    names += dominantAxis(axis);
-  }
+  for (int i = 0; i < freeUpTo(threshold); ++i) names += (names.empty() ? "" : ", ") + nameOf(i);
   return names;
+}
+
+std::string DegeneracyAnalysis::nameOf(int i) const {
+  // At the box's centre the shrunk translation is metric; the shrunk rotation is the motion at the box's
+  // border.
+  const Vector6d shrunk = eigenvectors_.col(i);
+  const bool slides = shrunk.tail<3>().norm() > shrunk.head<3>().norm();
+  const Eigen::Vector3d axis =
+      slides ? Eigen::Vector3d(shrunk.tail<3>()) : Eigen::Vector3d(shrunk.head<3>().cwiseQuotient(size_));
+  return std::string(slides ? "sliding along " : "rotating about ") + dominantAxis(axis);
 }
 
 }  // namespace depth_fusion

@@ -24,12 +24,16 @@ class DegeneracyAnalysis {
   int freeDirections() const { return free_; }
   // The smallest eigenvalue divided by the sum of the weights.
   double smallestEigenvalue() const { return eigenvalues_(0); }
+  // The twist that belongs to it.
+  Vector6d weakestTwist() const { return to_shrunk_.transpose() * eigenvectors_.col(0); }
   // The system without what it says about the free directions.
   IcpSystem constrained() const;
   // The solution, which along the free directions takes back the motion `so_far`.
   Vector6d solve(const Vector6d& so_far = Vector6d::Zero()) const;
   // The free directions in words, in the frame of the system: "sliding along x, rotating about z".
   std::string freeDirectionNames() const { return namesUpTo(threshold_); }
+  // The name of the direction with the i-th smallest eigenvalue.
+  std::string nameOf(int i) const;
   // The same of the directions that would be free by another threshold.
   std::string namesUpTo(double threshold) const;
 

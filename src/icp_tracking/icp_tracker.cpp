@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "depth_fusion/compute/device_image.h"
 #include "icp_tracking/degeneracy.h"
+#include "icp_tracking/frame_geometry.h"
 #include "icp_tracking/icp_tracking_kernels.h"
 
 namespace depth_fusion {
@@ -27,6 +27,8 @@ struct IcpTracker::Alignment {
   std::string free_directions;  // those that geometry says weakly among them
   int free = 0;                 // directions that geometry does not even say weakly
   double smallest_eigenvalue = 0.0;
+  Vector6d weakest = Vector6d::Zero();  // twist of the smallest eigenvalue
+  std::string weakest_name;
   int iterations = 0;
 };
 
@@ -39,11 +41,23 @@ constexpr double kWeakly = 0.5;
 // What is guessed may be off by a third of a metre, or of a radian.
 constexpr double kGuessInformation = 9.0;
 
+// The least part of what the frame's points would say of a motion that their matches have to say, for it to
+// be measured by them.
+constexpr double kSaid = 0.3;
+
+// Whether those points that would tell how far the frame is along its weakest direction are the ones that do
+// not match: then its pose slides along that, as past lamps that are alike.
+bool slides(const IcpTracker::Alignment& alignment, const DepthFrame& frame) {
+  return alignment.smallest_eigenvalue <
+         kSaid * informationAlong(alignment.weakest, frame.levels.back(), alignment.T_M_D);
+}
+
 // Why the result is not to be trusted, or nothing.
 std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker::SystemPrior& prior,
                        const IcpTrackingParameters& parameters) {
   const IcpSystem& system = alignment.system;
-  const double fraction = system.source_points > 0.0 ? system.inliers / system.source_points : 0.0;
+  // The map of a few frames shows little of what is far; it is asked about what it does show.
+  const double fraction = system.covered_points > 0.0 ? system.inliers / system.covered_points : 0.0;
   const Pose T_prior_D = prior.T_M_D.inverse() * alignment.T_M_D;
   std::ostringstream reason;
   if (system.source_points < 1.0) {
@@ -54,7 +68,7 @@ std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker:
     reason << "only " << system.source_points << " points with depth and normal";
   } else if (system.inliers < parameters.min_inliers || fraction < parameters.min_inlier_fraction) {
     reason << "only " << system.inliers << " inliers, " << std::lround(100.0 * fraction)
-           << " % of the points";
+           << " % of the points that meet the map";
   } else if (!(system.rmse() <= parameters.max_rmse_m)) {
     reason << "rmse " << system.rmse() << " m";
   } else if (T_prior_D.translation().norm() > parameters.max_translation_m ||
@@ -64,36 +78,6 @@ std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker:
     reason << "the geometry seen leaves free " << alignment.free_directions << ", and nothing else helps";
   }
   return reason.str();
-}
-
-// The cube that points with the mean and spread of the frame's would fill evenly, seen from M. They count by
-// the sensor's accuracy, as they do in the system: a few points far away would make the box large and all
-// rotations weak. A cube, for the lever arms of a rotation about an axis lie across it: the box's own sizes
-// (the paper's S) would scale them wrongly.
-Eigen::AlignedBox3d spreadBox(const DepthLevel& coarsest, const Pose& T_M_D) {
-  const CameraIntrinsics& camera = coarsest.camera;
-  const cv::Mat depth = readImage(coarsest.depth, camera);
-  double weights = 0.0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
-  for (int v = 0; v < depth.rows; ++v) {
-    for (int u = 0; u < depth.cols; ++u) {
-      const double z = depth.at<float>(v, u);
-      if (z <= 0.0) continue;
-      const Eigen::Vector3d p =
-          T_M_D * (z * Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0));
-      const double sigma_m = AXIAL_SIGMA_M(coarsest.sensor, z);
-      const double weight = 1.0 / (sigma_m * sigma_m);
-      weights += weight;
-      sum += weight * p;
-      squares += weight * p.cwiseAbs2();
-    }
-  }
-  if (weights <= 0.0) return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()};
-  const Eigen::Vector3d mean = sum / weights;
-  const double half_size = std::sqrt(std::max((squares / weights - mean.cwiseAbs2()).sum(), 0.0));
-  const Eigen::Vector3d half_diagonal = Eigen::Vector3d::Constant(half_size);
-  return {mean - half_diagonal, mean + half_diagonal};
 }
 
 IcpTracker::SystemPrior toSystem(const MotionPrior& prior, const Pose& T_M_W) {
@@ -201,6 +185,8 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
     alignment.free = analysis.freeDirections();
     alignment.free_directions = analysis.namesUpTo(parameters_.degeneracy_threshold);
     alignment.smallest_eigenvalue = analysis.smallestEigenvalue();
+    alignment.weakest = analysis.weakestTwist();
+    alignment.weakest_name = analysis.nameOf(0);
     alignment.prior_sigmas =
         distanceFromPrior(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
     break;
@@ -252,13 +238,22 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
   result.rmse_m = alignment.system.rmse();
   result.smallest_eigenvalue = alignment.smallest_eigenvalue;
   result.T_W_D = orthonormalized(view.T_W_D * alignment.T_M_D);
+  result.reason = lostReason(alignment, system_prior, parameters_);
+  const bool is_found = result.reason.empty();
+  if (is_found) {
+    result.guessed_directions = prior.covariance ? 0 : alignment.free;
+    result.reason = alignment.free_directions;
+  }
+  if (is_found && !prior.covariance && alignment.free == 0 && slides(alignment, frame)) {
+    result.guessed_directions = 1;
+    result.reason = alignment.weakest_name;
+    const Vector6d direction = alignment.weakest.normalized();
+    alignment.covariance += direction * direction.transpose() / kGuessInformation;
+  }
   const Matrix6d to_world = adjoint(view.T_W_D);
   result.covariance = to_world * alignment.covariance * to_world.transpose();
-  result.reason = lostReason(alignment, system_prior, parameters_);
-  if (!result.reason.empty()) return result;
-  result.guessed_directions = prior.covariance ? 0 : alignment.free;
-  result.reason = alignment.free_directions;
-  result.status = result.reason.empty() ? TrackingStatus::kTracking : TrackingStatus::kDegenerate;
+  if (is_found)
+    result.status = result.reason.empty() ? TrackingStatus::kTracking : TrackingStatus::kDegenerate;
   return result;
 }
 

@@ -39,7 +39,8 @@ ParameterTable IcpTrackingParameters::table() {
       number("correlated_points", &correlated_points, 1.0, 1e6,
              "matches that count as one measurement against a prior, for their errors are alike"),
       number("min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0,
-             "a frame is lost if a smaller part of its points is matched"),
+             "a frame is lost if a smaller part of its points is matched, of those that are seen where the "
+             "map has a surface"),
       number("min_inliers", &min_inliers, 6, 100000000, "a frame is lost if fewer points are matched")};
   return joined({usual, expert(joined({iterations, matches}))});
 }

@@ -11,7 +11,8 @@ constexpr double kMemory_frames = 30.0;      // of how well matches usually fit
 constexpr double kShortMemory_frames = 5.0;  // of how much is usually explained
 constexpr double kLessExplained = 0.9;       // than usual, from which on other starts are tried
 constexpr double kHardlyExplained = 0.7;     // of what is usual, from which on all around is searched
-constexpr double kUnexplained = 0.5;         // of what is usual, from which on the frame is lost
+constexpr double kFoundAgain = 0.75;         // of what is usual, from which on a lost sensor is found
+constexpr double kUnexplained = 0.55;        // of what is usual, from which on the frame is lost
 constexpr double kWellExplained = 0.7;   // of a frame by a map of few frames, so that nothing else is tried
 constexpr double kLeastExplained = 0.3;  // of a frame by a map of few frames, else it is lost
 constexpr double kWorseMatches = 0.85;   // than usual, from which on the frame is lost
@@ -88,6 +89,11 @@ TrackingResult HypothesisTracker::search(const DepthFrame& frame, const ModelVie
                                          const MotionPrior& start, StageTimers& timers) {
   const Pose T_W_D = tracker_.bestStart(frame, view, around(start.T_W_D), timers);
   return orLost(lostIfGuessed(tracker_.track(frame, view, {T_W_D, std::nullopt, "search"}, timers)));
+}
+
+TrackingResult HypothesisTracker::orStillLost(TrackingResult result) const {
+  const bool is_explained = result.explained >= explainedBy(kLeastExplained, kFoundAgain);
+  return isLost(result) || is_explained ? result : lost(std::move(result));
 }
 
 void HypothesisTracker::accept(const TrackingResult& result) {

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/depth_range.h"
-#include "pipeline/given_pose.h"
+#include "pipeline/search_poses.h"
 
 namespace depth_fusion {
 namespace {
@@ -15,9 +16,33 @@ constexpr char kStart[] = "start";
 constexpr char kGuessed[] = "; nothing measures that, and the pose stays where it was expected";
 constexpr int kFramesAtGiven = 10;  // in which the sensor is searched for at a pose that was given
 
+constexpr int kPlacesInAFrame = 4;  // that a lost sensor is searched for in, farther about its last pose
+
 // Whether frames are compensated for the sensor's motion.
 bool bendsFrames(const PreprocessingParameters& parameters) {
   return parameters.readout_s != 0.0f || parameters.stamp_delay_s != 0.0f;
+}
+
+std::string guessedTooLong(const GuessedMotion& motion) {
+  char reason[200];
+  std::snprintf(
+      reason, sizeof(reason),
+      "; since it was measured the sensor may have moved by %.0f mm and %.1f degrees, too far to go on",
+      1e3 * motion.m(), motion.rad() * 180.0 / CV_PI);
+  return reason;
+}
+
+// A frame whose depth says nothing of where it is.
+TrackingResult lostWithout(const GuessedMotion& motion) {
+  char reason[300];
+  std::snprintf(
+      reason, sizeof(reason),
+      "the sensor may have moved by %.1f m along what geometry leaves free: places there may look alike, "
+      "and only texture or a pose that is given can tell them apart",
+      motion.m());
+  TrackingResult result;
+  result.reason = reason;
+  return result;
 }
 
 }  // namespace
@@ -47,17 +72,37 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
   const MotionPrior predicted = takePrepared(frame);
   TrackingResult result = view == nullptr ? begin(frame, begins_anew_for_.empty() ? start : predicted.T_W_D)
                                           : track(frame, predicted, texture.features, *view, timers);
-  if (result.guessed_directions > 0 && result.status != TrackingStatus::kLost) result.reason += kGuessed;
-  result.map_doubt = watch_.doubt();
-  if (result.status == TrackingStatus::kLost) {
-    motion_.lose();
-    if (view != nullptr && pointsInRange(frame) >= parameters_.icp_tracking.min_inliers) young_map_.miss();
+  if (result.status != TrackingStatus::kLost) {
+    take(frame.stamp_s, std::move(texture.features), result);
   } else {
-    given_.reset();
-    found_ = {frame.stamp_s, std::move(texture.features), result, motion_};
-    motion_.moveTo(frame.stamp_s, result.T_W_D);
+    motion_.lose();
+    if (guessed_.isTooFar()) guessed_.guess(frame.stamp_s, Vector6d::Zero());
+    const bool is_guessed = result.guessed_directions > 0;  // it fits the map, somewhere
+    if (!is_guessed && view != nullptr && pointsInRange(frame) >= parameters_.icp_tracking.min_inliers)
+      young_map_.miss();
   }
+  result.map_doubt = watch_.doubt();
   return result;
+}
+
+void TrackingSession::take(double stamp_s, FrameFeatures features, TrackingResult& result) {
+  MotionModel unless_fused = motion_;
+  const Vector6d& velocity = motion_.moveTo(stamp_s, result.T_W_D);
+  if (result.guessed_directions == 0) {
+    guessed_.measure(stamp_s, velocity);
+  } else {
+    guessed_.guess(stamp_s, velocity);
+    result.reason += kGuessed;
+    if (guessed_.isTooFar()) {
+      motion_ = unless_fused;
+      motion_.lose();
+      result.status = TrackingStatus::kLost;
+      result.reason += guessedTooLong(guessed_);
+      return;
+    }
+  }
+  given_.reset();
+  found_ = {stamp_s, std::move(features), result, std::move(unless_fused)};
 }
 
 void TrackingSession::prepareAhead(const RgbdFrame& frame, const TexturedFrame& texture,
@@ -110,6 +155,7 @@ void TrackingSession::reset(const Pose& T_W_D, Keyframes keyframes) {
   relocaliser_.reset(std::move(keyframes));
   tracker_.reset();
   young_map_.forget();
+  guessed_ = {};
   watch_.reset();
   begins_anew_for_.clear();
 }
@@ -117,6 +163,7 @@ void TrackingSession::reset(const Pose& T_W_D, Keyframes keyframes) {
 void TrackingSession::searchAt(const Pose& T_W_D) {
   lose();
   motion_.loseAt(T_W_D);
+  guessed_ = {};
   given_ = {T_W_D, kFramesAtGiven};
 }
 
@@ -125,6 +172,7 @@ void TrackingSession::beginAnew() {
   relocaliser_.reset();
   tracker_.reset();
   young_map_.forget();
+  guessed_ = {};
   watch_.reset();
 }
 
@@ -190,20 +238,32 @@ TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const Frame
     if (result.status != TrackingStatus::kLost) return result;
   }
   if (motion_.isTracking()) return lost;
+  if (guessed_.isAnywhere()) return lostWithout(guessed_);
   TrackingResult result = trackFrom(prior, timers);
   std::vector<MotionPrior> starts = motion_.otherStarts();
   const auto is_the_prior = [&](const MotionPrior& start) { return saysTheSame(start, prior); };
   if (std::none_of(starts.begin(), starts.end(), is_the_prior)) starts.push_back(prior);
   for (size_t i = 0; i < starts.size() && result.status == TrackingStatus::kLost; ++i)
-    result = orStillLost(tracker_.search(*depth_, render_(starts[i].T_W_D), starts[i], timers));
+    result = searchAbout(starts[i], timers);
+  return result.status == TrackingStatus::kLost ? searchFarther(starts.front().T_W_D, timers) : result;
+}
+
+TrackingResult TrackingSession::searchFarther(const Pose& T_W_last, StageTimers& timers) {
+  const std::vector<Pose> poses = aboutLastSeen(T_W_last);
+  TrackingResult result;
+  for (int i = 0; i < kPlacesInAFrame && result.status == TrackingStatus::kLost; ++i)
+    result = searchAbout({poses[next_search_++ % poses.size()], std::nullopt, "search"}, timers);
   return result;
+}
+
+TrackingResult TrackingSession::searchAbout(const MotionPrior& start, StageTimers& timers) {
+  return orStillLost(tracker_.search(*depth_, render_(start.T_W_D), start, timers));
 }
 
 TrackingResult TrackingSession::searchAtGiven(StageTimers& timers) {
   TrackingResult best;
   for (const Pose& T_W_D : aboutGiven(given_->T_W_D)) {
-    const TrackingResult result =
-        orStillLost(tracker_.search(*depth_, render_(T_W_D), {T_W_D, std::nullopt, "given pose"}, timers));
+    const TrackingResult result = searchAbout({T_W_D, std::nullopt, "given pose"}, timers);
     if (result.status != TrackingStatus::kLost && result.explained > best.explained) best = result;
   }
   if (--given_->frames_left == 0) given_.reset();
@@ -215,7 +275,7 @@ TrackingResult TrackingSession::trackFrom(const MotionPrior& prior, StageTimers&
 }
 
 TrackingResult TrackingSession::orStillLost(TrackingResult result) const {
-  result = lostIfGuessed(std::move(result));
+  result = tracker_.orStillLost(lostIfGuessed(std::move(result)));
   if (result.status == TrackingStatus::kLost ||
       result.inlier_fraction >= parameters_.relocalisation.min_inlier_fraction) {
     return result;

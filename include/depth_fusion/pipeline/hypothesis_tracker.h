@@ -27,6 +27,8 @@ class HypothesisTracker {
   // Tracks a sensor that is lost from all around the start.
   TrackingResult search(const DepthFrame& frame, const ModelView& view, const MotionPrior& start,
                         StageTimers& timers);
+  // A sensor that was lost is found where about as much of the frame is explained as usual.
+  TrackingResult orStillLost(TrackingResult result) const;
 
   // The frame is fused: it says what is usual.
   void accept(const TrackingResult& result);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "depth_fusion/frames/textured_frame.h"
+#include "depth_fusion/pipeline/guessed_motion.h"
 #include "depth_fusion/pipeline/hypothesis_tracker.h"
 #include "depth_fusion/pipeline/map_watch.h"
 #include "depth_fusion/pipeline/motion_model.h"
@@ -89,12 +90,17 @@ class TrackingSession {
   TrackingResult trackUnbent(const RgbdFrame& frame, const MotionPrior& prior, const TrackingResult& bent,
                              const ModelView& view, StageTimers& timers);
   int pointsInRange(const RgbdFrame& frame) const;
+  // Takes the frame's pose, unless it is guessed and may be far off by now: then the frame is lost.
+  void take(double stamp_s, FrameFeatures features, TrackingResult& result);
   // Tracks against the map as it is seen from where a keyframe, or after a loss the prior, says that the
   // sensor is. Returns `lost` if nothing fits.
   TrackingResult relocalise(const MotionPrior& prior, const FrameFeatures& features,
                             const TrackingResult& lost, StageTimers& timers);
+  // Searches for the sensor farther about its last pose, in another few places in each frame.
+  TrackingResult searchFarther(const Pose& T_W_last, StageTimers& timers);
   // Searches for the sensor about the pose that was given, for some frames.
   TrackingResult searchAtGiven(StageTimers& timers);
+  TrackingResult searchAbout(const MotionPrior& start, StageTimers& timers);
   TrackingResult trackFrom(const MotionPrior& prior, StageTimers& timers);
   // The result, or that the frame is lost if too little of it fits the map.
   TrackingResult orStillLost(TrackingResult result) const;
@@ -106,11 +112,13 @@ class TrackingSession {
   Relocaliser relocaliser_;
   TextureOdometry matcher_;  // of frames to keyframes
   MotionModel motion_;
+  GuessedMotion guessed_;
   YoungMap young_map_;
   MapWatch watch_;
   std::string begins_anew_for_;  // why the next map is one that begins anew; else empty
   std::shared_ptr<const DepthFrame> depth_;
   std::optional<FoundFrame> found_;
+  size_t next_search_ = 0;  // of the places farther about the last pose
   std::optional<PreparedFrame> ahead_;
   // Where somebody says that the sensor is, until it is found.
   struct GivenPose {

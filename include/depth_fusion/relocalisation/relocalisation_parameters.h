@@ -10,7 +10,7 @@ struct RelocalisationParameters {
   float keyframe_angle_rad = 0.25f;
   int max_keyframes = 200;
   int max_candidates = 5;
-  float min_inlier_fraction = 0.5f;
+  float min_inlier_fraction = 0.3f;
   int young_map_frames = 5;
   int give_up_after_frames = 15;
 

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/benchmark/noise.h"
 #include "apps/benchmark/starts.h"
 #include "apps/benchmark/tracking_inputs.h"
 #include "common/io/text_file.h"
@@ -165,7 +166,18 @@ void addTrackingBenchmark(CLI::App& app, TrackingBenchmark& options) {
   command->add_option("--starts", options.starts,
                       "so many starts at random frames and frame rates, in place of the table");
   command->add_option("--seed", options.seed, "of the random starts")->capture_default_str();
-  command->callback([&options] { options.starts > 0 ? runStarts(options) : runBenchmark(options); });
+  command->add_flag(
+      "--strides", options.strides,
+      "every second to sixth frame from each of the first ten and from frame 211 on, with texture and "
+      "without, in place of random starts");
+  command->add_flag(
+      "--noise", options.noise,
+      "a rendered office and a large room with the noise of sensors, without texture in the office, in "
+      "place of the table");
+  command->callback([&options] {
+    if (options.noise) return runNoise(options);
+    options.starts > 0 || options.strides ? runStarts(options) : runBenchmark(options);
+  });
 }
 
 }  // namespace depth_fusion

@@ -16,7 +16,9 @@ struct TrackingBenchmark {
   std::vector<std::string> inputs;  // all if empty
   bool gates = false;
   size_t starts = 0;
-  unsigned seed = 1;  // of the starts
+  unsigned seed = 1;     // of the starts
+  bool noise = false;    // of sensors, in place of the table
+  bool strides = false;  // every start of a list, in place of random ones
 };
 
 // Adds the subcommand, which runs as it is parsed.

@@ -70,6 +70,38 @@ class LightsOff : public Recording {
   size_t next_ = 0;
 };
 
+class Noisy : public Recording {
+ public:
+  Noisy(std::unique_ptr<Recording> recording, const DepthSensorParameters& sensor, const DepthRange& range,
+        unsigned seed)
+      : recording_(std::move(recording)), sensor_(sensor), range_(range), random_(seed) {}
+
+  std::optional<RgbdFrame> next() override {
+    std::optional<RgbdFrame> frame = recording_->next();
+    if (!frame) return frame;
+    cv::Mat depth_m;
+    frame->depth.convertTo(depth_m, CV_32F, frame->depth_unit_m);
+    std::normal_distribution<float> noise;
+    for (auto z = depth_m.begin<float>(); z != depth_m.end<float>(); ++z) {
+      if (!(*z > 0.0f)) continue;
+      const float beyond_m = *z - sensor_.sigma_from_m;
+      *z += noise(random_) * (sensor_.sigma_base_m + sensor_.sigma_growth_per_m * beyond_m * beyond_m);
+      if (*z < range_.min_m || *z > range_.max_m) *z = 0.0f;
+    }
+    frame->depth = depth_m;
+    frame->depth_unit_m = 1.0;
+    return frame;
+  }
+  size_t frameCount() const override { return recording_->frameCount(); }
+  std::string description() const override { return recording_->description() + ", with noise"; }
+
+ private:
+  std::unique_ptr<Recording> recording_;
+  DepthSensorParameters sensor_;
+  DepthRange range_;
+  std::mt19937 random_;
+};
+
 class Interrupted : public Recording {
  public:
   Interrupted(const OpenRecording& open, const Interruption& interruption)
@@ -125,6 +157,12 @@ std::unique_ptr<Recording> irregular(std::unique_ptr<Recording> recording, size_
 
 std::unique_ptr<Recording> lightsOff(std::unique_ptr<Recording> recording, size_t first, size_t count) {
   return std::make_unique<LightsOff>(std::move(recording), first, count);
+}
+
+std::unique_ptr<Recording> withNoise(std::unique_ptr<Recording> recording,
+                                     const DepthSensorParameters& sensor, const DepthRange& range,
+                                     unsigned seed) {
+  return std::make_unique<Noisy>(std::move(recording), sensor, range, seed);
 }
 
 std::unique_ptr<Recording> interrupted(const OpenRecording& open, const Interruption& interruption) {

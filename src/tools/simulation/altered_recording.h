@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "depth_fusion/geometry/pose.h"
+#include "depth_fusion/preprocessing/preprocessing_parameters.h"
 #include "depth_fusion/recording/recording.h"
 
 namespace depth_fusion {
@@ -19,6 +20,11 @@ std::unique_ptr<Recording> irregular(std::unique_ptr<Recording> recording, size_
 
 // Makes `count` frames from the given one on black; their depth stays.
 std::unique_ptr<Recording> lightsOff(std::unique_ptr<Recording> recording, size_t first, size_t count);
+
+// Adds white noise to the depth: the sensor's axial sigma, and what is out of range has none.
+std::unique_ptr<Recording> withNoise(std::unique_ptr<Recording> recording,
+                                     const DepthSensorParameters& sensor, const DepthRange& range,
+                                     unsigned seed);
 
 struct Interruption {
   size_t black_frames = 30;      // without depth and light, 1/30 s apart

@@ -31,6 +31,7 @@ const SceneEntry& entryOf(const std::string& name) {
 const std::vector<SceneEntry>& sceneLibrary() {
   static const std::vector<SceneEntry> scenes = {
       {"room", "a textured, furnished room of 4 x 3 x 2.5 m, Kinect-like sensor", makeRoomScene},
+      {"large_room", "a textured, furnished room of 8 x 6 m, Kinect-like sensor", makeLargeRoomScene},
       {"object", "a figure of 0.2 m on a table, orbited by a close-range precision sensor", makeObjectScene},
       {"seal",
        "a carved seal of 0.15 m with a flat, printed face of a coin's size, orbited by a precision scanner",

@@ -16,6 +16,7 @@ SimulatedScene makeBuildingScene();
 SimulatedScene makeCorridorScene();
 SimulatedScene makeWhiteCorridorScene();
 SimulatedScene makeAlikeScene();
+SimulatedScene makeLargeRoomScene();
 SimulatedScene makePersonScene();
 SimulatedScene makeHandScene();
 SimulatedScene makeTurntableScene();

@@ -1,4 +1,4 @@
-#include "pipeline/given_pose.h"
+#include "pipeline/search_poses.h"
 
 namespace depth_fusion {
 
@@ -16,6 +16,21 @@ std::vector<Pose> aboutGiven(const Pose& T_W_D) {
         poses.push_back(T_W_D * poseFromTwist(twist));
       }
     }
+  }
+  return poses;
+}
+
+std::vector<Pose> aboutLastSeen(const Pose& T_W_D) {
+  constexpr double kTurn_rad = 0.25, kMove_m = 0.3;
+  std::vector<Pose> poses;
+  const auto add = [&](int axis, double step) {
+    Vector6d twist = Vector6d::Zero();
+    twist[axis] = step;
+    poses.push_back(T_W_D * poseFromTwist(twist));
+  };
+  for (const double sign : {-1.0, 1.0}) {
+    for (int axis = 0; axis < 6; ++axis) add(axis, sign * (axis < 3 ? kTurn_rad : kMove_m));
+    for (const int axis : {0, 1}) add(axis, 2.0 * sign * kTurn_rad);
   }
   return poses;
 }
