@@ -17,20 +17,9 @@
 #include "depth_fusion/store/database.h"
 #include "depth_fusion/submaps/store_usage.h"
 #include "depth_fusion/submaps/submap_parameters.h"
-#include "submaps/block_rows.h"
+#include "submaps/group_rows.h"
 
 namespace depth_fusion {
-
-// A group of blocks of a submap.
-struct GroupKey {
-  uint32_t submap;
-  BlockIndex group;
-
-  bool operator<(const GroupKey& other) const {
-    if (submap != other.submap) return submap < other.submap;
-    return before(group, other.group);
-  }
-};
 
 class StoreSnapshot;
 
@@ -39,18 +28,16 @@ class StoreSnapshot;
 // lost. Any thread may call.
 class BlockStore {
  public:
-  using Group = std::vector<BlockGroup>;  // of each layer, with the same blocks
-  using GroupPtr = std::shared_ptr<const Group>;
-  using Rows = std::vector<std::string>;  // of each layer, packed
-  using RowsPtr = std::shared_ptr<const Rows>;
+  using GroupPtr = std::shared_ptr<const BlockGroups>;
+  using RowsPtr = std::shared_ptr<const GroupRows>;
 
   BlockStore(const SubmapParameters& parameters, std::vector<LayerRow> layers, int block_size);
   ~BlockStore();
 
   // Takes the group in; waits while the thread has too much to do. What was there of it is replaced.
-  void put(const GroupKey& key, Group group);
+  void put(const GroupKey& key, BlockGroups group);
   // The same of a group as rows, of so many blocks.
-  void putRows(const GroupKey& key, Rows rows, size_t blocks);
+  void putRows(const GroupKey& key, GroupRows rows, size_t blocks);
   // The group, which is not here any more. Throws Error if it cannot be read; it stays then.
   GroupPtr take(const GroupKey& key);
   // The groups as they are now, to be read while this store goes on changing; those that are not here are
@@ -75,6 +62,9 @@ class BlockStore {
   };
   using Entries = std::map<GroupKey, Entry>;
 
+  // Of blocks that wait to be compressed, or to be taken, at most.
+  static constexpr size_t kQueueBytes = size_t{64} << 20;
+
   using KeyedRows = std::vector<std::pair<GroupKey, RowsPtr>>;
   using Lock = std::unique_lock<std::mutex>;
   using Clock = std::chrono::steady_clock;
@@ -92,9 +82,9 @@ class BlockStore {
 
   // The group's rows, from wherever they are; the lock is let go of meanwhile.
   RowsPtr rowsOf(const GroupKey& key, Lock& lock);
-  Rows read(const GroupKey& key);
+  GroupRows read(const GroupKey& key);
   void waitForRoom(Lock& lock);
-  Group unpack(const GroupKey& key, const Rows& rows) const;
+  BlockGroups unpack(const GroupKey& key, const GroupRows& rows) const;
   Database& database();
   bool mustSpill() const { return usage_.memory_bytes > memory_limit_ && !by_age_.empty(); }
   bool hasRoomNow() const;
@@ -124,17 +114,13 @@ class BlockStore {
   std::thread thread_;
 };
 
-// The rows of a group, of each layer.
-BlockStore::Rows packedRows(const GroupKey& key, const BlockStore::Group& group,
-                            const std::vector<LayerRow>& layers, int block_size);
-
 // Some of a store's groups as they were at a time. It may be used beside the store, by one thread.
 class StoreSnapshot {
  public:
   bool has(const GroupKey& key) const { return entries_.count(key) > 0; }
   // The group as rows. Throws Error if it cannot be read.
   BlockStore::RowsPtr rows(const GroupKey& key);
-  BlockStore::Group group(const GroupKey& key);
+  BlockGroups group(const GroupKey& key);
 
  private:
   friend class BlockStore;

@@ -68,7 +68,7 @@ void ReadMap::readSubmap(const Database& database, DatabaseReader& reader, uint3
   reader.forEach(prefix, [&](const std::string& key, const std::string& row) {
     const BlockIndex index = groupOfKey(key, prefix);
     const BlockGroup first = parseBlocks(row, index, layers.front(), block_size_, rowName(database, key));
-    BlockStore::Rows rows = {row};
+    GroupRows rows = {row};
     for (size_t i = 1; i < layers.size(); ++i)
       rows.push_back(otherRow(database, reader, submap, layers[i], index, first.blocks));
     loaded_.groups[index][submap] = first.blocks.size();

@@ -46,7 +46,7 @@ BlockGroups WholeMap::group(const GroupKey& key) {
   return is_in_pool ? joined(in_pool->second, stored_->group(key)) : stored_->group(key);
 }
 
-BlockStore::Rows WholeMap::rows(const GroupKey& key) {
+GroupRows WholeMap::rows(const GroupKey& key) {
   const bool is_in_pool = key.submap == active_ && in_pool_.count(key.group) > 0;
   if (!is_in_pool) return *stored_->rows(key);
   return packedRows(key, group(key), layers_, block_size_);

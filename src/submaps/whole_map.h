@@ -29,7 +29,7 @@ class WholeMap {
   // A submap's group, of each layer. These two may be called at any time, by one thread at a time. Throw
   // Error if it cannot be read.
   BlockGroups group(const GroupKey& key);
-  BlockStore::Rows rows(const GroupKey& key);
+  GroupRows rows(const GroupKey& key);
   // The group of W: of a block that several submaps have, that of the one that was active last.
   BlockGroups groupOfWorld(const BlockIndex& group);
 

@@ -36,6 +36,11 @@ nlohmann::ordered_json trackingJson(const RunCounts& counts, const Reconstructio
           {"keyframes", pipeline.keyframeCount()}};
 }
 
+MapParameters withoutColor(MapParameters map) {
+  map.color = false;
+  return map;
+}
+
 }  // namespace
 
 size_t peakRssBytes() {
@@ -46,7 +51,10 @@ size_t peakRssBytes() {
 
 void writeReport(const std::string& path, const std::string& input, ComputeContext& compute,
                  ReconstructionPipeline& pipeline, const RunCounts& counts, size_t tracking_peak_rss_bytes) {
-  const BlockMap::Usage usage = pipeline.map().usage();
+  const BlockMap::Usage pool = pipeline.map().usage();
+  const SubmapCollection& submaps = pipeline.submaps();
+  const size_t blocks = submaps.blockCount();
+  const MapParameters& map = pipeline.map().parameters();
   nlohmann::ordered_json stages;
   nlohmann::ordered_json frame;
   for (const auto& [stage, samples_ms] : pipeline.timers().samplesMs()) {
@@ -65,11 +73,13 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
                                          {"frame_ms", frame},
                                          {"stage_ms", stages},
                                          {"map",
-                                          {{"blocks", usage.blocks},
-                                           {"capacity", usage.capacity},
-                                           {"bytes", usage.bytes},
-                                           {"color_bytes", usage.bytesOf(kColorLayer)},
-                                           {"pool_bytes", usage.pool_bytes}}},
+                                          {{"blocks", blocks},
+                                           {"blocks_in_pool", pool.blocks},
+                                           {"capacity", pool.capacity},
+                                           {"submaps", submaps.submaps().size()},
+                                           {"bytes", mapBytes(map, blocks)},
+                                           {"color_bytes", mapBytes(map, blocks) - mapBytes(withoutColor(map), blocks)},
+                                           {"pool_bytes", pool.pool_bytes}}},
                                          {"peak_rss_bytes", peakRssBytes()},
                                          {"tracking_peak_rss_bytes", tracking_peak_rss_bytes}};
   writeText(path, report.dump(2) + '\n');

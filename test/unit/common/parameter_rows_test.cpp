@@ -31,6 +31,7 @@ TEST(FieldCount, CountsMembersOfEveryKind) {
 
 TEST(ParameterRows, EveryMemberOfAStageHasOne) {
   expectRows<MapParameters>();
+  expectRows<SubmapParameters>();
   expectRows<RegistrationParameters>();
   expectRows<DepthSensorParameters>();
   expectRows<PreprocessingParameters>();

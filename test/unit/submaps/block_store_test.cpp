@@ -23,10 +23,10 @@ std::vector<LayerRow> layers() {
 }
 
 // A group of some blocks, which is another one for each key and round. Its bytes do not compress.
-BlockStore::Group groupOf(const GroupKey& key, uint32_t round = 0) {
+BlockGroups groupOf(const GroupKey& key, uint32_t round = 0) {
   std::mt19937 random(key.submap + 31 * round);
   for (const int i : key.group) random.seed(random() + static_cast<uint32_t>(i));
-  BlockStore::Group group(layers().size());
+  BlockGroups group(layers().size());
   for (int local = static_cast<int>(random() % 16); local < 64;
        local += 1 + static_cast<int>(random() % 32)) {
     const BlockIndex block = 4 * key.group + BlockIndex(local % 4, local / 4 % 4, local / 16);
@@ -45,7 +45,7 @@ BlockStore::Group groupOf(const GroupKey& key, uint32_t round = 0) {
 
 GroupKey keyNumber(int i) { return {static_cast<uint32_t>(i % 3), {i % 11 - 5, i / 11 % 13, -i / 143}}; }
 
-void expectSame(const BlockStore::Group& a, const BlockStore::Group& b) {
+void expectSame(const BlockGroups& a, const BlockGroups& b) {
   ASSERT_EQ(a.size(), b.size());
   for (size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].blocks, b[i].blocks);
