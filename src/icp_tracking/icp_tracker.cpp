@@ -244,7 +244,8 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
     result.guessed_directions = prior.covariance ? 0 : alignment.free;
     result.reason = alignment.free_directions;
   }
-  if (is_found && !prior.covariance && alignment.free == 0 && slides(alignment, frame)) {
+  const bool may_slide = parameters_.degeneracy_threshold > 0.0f && !prior.covariance && alignment.free == 0;
+  if (is_found && may_slide && slides(alignment, frame)) {
     result.guessed_directions = 1;
     result.reason = alignment.weakest_name;
     const Vector6d direction = alignment.weakest.normalized();
