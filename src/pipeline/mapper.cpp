@@ -7,7 +7,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kBeyond_m = 0.5;  // that the next view may show behind what was measured last
+constexpr double kBeyond = 1.1;  // how far the next view may reach, to what was measured last
 
 double farthest_m(const DepthFrame& depth) {
   const std::vector<float> tiles = depth.max_tiles.read<float>(depth.max_tiles.bytes() / sizeof(float));
@@ -39,7 +39,7 @@ MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, cons
   if (map_.slots().used() == 0 && submaps_.blockCount() == 0)
     map_.placeWindow(windowCentre(frame, parameters_.depthRange(), T_W_D));
   submaps_.enter(T_W_D, is_given);
-  view_range_m_ = farthest_m(depth) + kBeyond_m;
+  view_range_m_ = kBeyond * farthest_m(depth) + 2.0 * static_cast<double>(map_.parameters().truncation_m);
   show(T_W_D, timers);
   result.fusion = fusion_.integrate(depth, T_W_D, timers);
   if (color_fusion_) {

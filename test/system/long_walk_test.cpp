@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <map>
 
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/submaps/world_mesh.h"
@@ -76,11 +77,14 @@ Outcome walk(const SimulationOptions& options, const PipelineParameters& paramet
   return outcome;
 }
 
-// A mesh's triangles by the positions and colours of their corners, in an order of no other meaning.
-std::vector<std::array<float, 18>> sortedTriangles(const TriangleMesh& mesh) {
-  std::vector<std::array<float, 18>> triangles;
+// A triangle's corners by position and colour.
+using Corners = std::array<float, 18>;
+
+// A mesh's triangles in an order of no other meaning.
+std::vector<Corners> sortedTriangles(const TriangleMesh& mesh) {
+  std::vector<Corners> triangles;
   for (const MeshTriangle& triangle : mesh.triangles) {
-    std::array<float, 18> corners{};
+    Corners corners{};
     const auto first =
         static_cast<size_t>(std::min_element(triangle.begin(), triangle.end(),
                                              [&](uint32_t a, uint32_t b) {
@@ -119,6 +123,53 @@ TEST_P(LongWalk, GivesTheMeshOfAMapThatHoldsAll) {
   EXPECT_EQ(paged.blocks, all.blocks);
   EXPECT_EQ(paged.mesh.vertices.size(), all.mesh.vertices.size()) << "no vertex twice where parts meet";
   EXPECT_TRUE(sortedTriangles(paged.mesh) == sortedTriangles(all.mesh));
+}
+
+// The triangles that a viewer has who got these chunks.
+class ChunkViewer {
+ public:
+  explicit ChunkViewer(ReconstructionPipeline& pipeline) : chunks_(compute(), pipeline.map()) {
+    chunks_.lookElsewhere(std::make_unique<WorldParts>(compute(), pipeline.submaps()));
+  }
+  void update() {
+    for (const MeshChunk& chunk : chunks_.takeChanged(100000))
+      meshes_[chunk.index] = sortedTriangles(chunk.mesh);
+  }
+  std::vector<Corners> triangles() const {
+    std::vector<Corners> all;
+    for (const auto& [index, mesh] : meshes_) all.insert(all.end(), mesh.begin(), mesh.end());
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+ private:
+  MeshChunks chunks_;
+  std::map<MeshChunkIndex, std::vector<Corners>> meshes_;
+};
+
+// Whoever follows the surface sees all of it: from the start on, or who comes in the end.
+TEST(LiveView, HasTheWholeSurface) {
+  SimulatedRecording recording(walkThrough("corridor", 60, 3.0));
+  const PipelineParameters parameters = ofWindow(48, 4, false);
+  std::unique_ptr<ReconstructionPipeline> pipeline;
+  std::unique_ptr<ChunkViewer> early;
+  for (int i = 0; const std::optional<RgbdFrame> frame = recording.next(); ++i) {
+    if (!pipeline) {
+      pipeline = std::make_unique<ReconstructionPipeline>(compute(), parameters, frame->intrinsics);
+      early = std::make_unique<ChunkViewer>(*pipeline);
+    }
+    pipeline->processFrame(*frame, *frame->T_W_D);
+    if (i % 4 == 0) early->update();
+  }
+  ASSERT_GT(pipeline->submaps().usage().blocks_put, 1000u);
+  early->update();
+  ChunkViewer late(*pipeline);
+  late.update();
+  WorldSnapshot world(pipeline->submaps());
+  TriangleMesh mesh;
+  exportWorldMesh(compute(), world, mesh, parameters.surface_mesh, false);
+  EXPECT_TRUE(early->triangles() == sortedTriangles(mesh));
+  EXPECT_TRUE(late.triangles() == sortedTriangles(mesh));
 }
 
 INSTANTIATE_TEST_SUITE_P(WithoutAndWithColour, LongWalk, testing::Bool());
