@@ -60,28 +60,29 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
   for (const auto& [stage, samples_ms] : pipeline.timers().samplesMs()) {
     (stage == "frame" ? frame : stages[stage]) = statisticsJson(samples_ms);
   }
-  const nlohmann::ordered_json report = {{"input", input},
-                                         {"device", compute.selfTestReport()},
-                                         {"parameters", parametersJson(pipeline.parameters())},
-                                         {"frames",
-                                          {{"read", counts.read},
-                                           {"tracked", counts.tracked},
-                                           {"lost", counts.lost},
-                                           {"unreadable", counts.unreadable},
-                                           {"colored", counts.colored}}},
-                                         {"tracking", trackingJson(counts, pipeline)},
-                                         {"frame_ms", frame},
-                                         {"stage_ms", stages},
-                                         {"map",
-                                          {{"blocks", blocks},
-                                           {"blocks_in_pool", pool.blocks},
-                                           {"capacity", pool.capacity},
-                                           {"submaps", submaps.submaps().size()},
-                                           {"bytes", mapBytes(map, blocks)},
-                                           {"color_bytes", mapBytes(map, blocks) - mapBytes(withoutColor(map), blocks)},
-                                           {"pool_bytes", pool.pool_bytes}}},
-                                         {"peak_rss_bytes", peakRssBytes()},
-                                         {"tracking_peak_rss_bytes", tracking_peak_rss_bytes}};
+  const nlohmann::ordered_json report = {
+      {"input", input},
+      {"device", compute.selfTestReport()},
+      {"parameters", parametersJson(pipeline.parameters())},
+      {"frames",
+       {{"read", counts.read},
+        {"tracked", counts.tracked},
+        {"lost", counts.lost},
+        {"unreadable", counts.unreadable},
+        {"colored", counts.colored}}},
+      {"tracking", trackingJson(counts, pipeline)},
+      {"frame_ms", frame},
+      {"stage_ms", stages},
+      {"map",
+       {{"blocks", blocks},
+        {"blocks_in_pool", pool.blocks},
+        {"capacity", pool.capacity},
+        {"submaps", submaps.submaps().size()},
+        {"bytes", mapBytes(map, blocks)},
+        {"color_bytes", mapBytes(map, blocks) - mapBytes(withoutColor(map), blocks)},
+        {"pool_bytes", pool.pool_bytes}}},
+      {"peak_rss_bytes", peakRssBytes()},
+      {"tracking_peak_rss_bytes", tracking_peak_rss_bytes}};
   writeText(path, report.dump(2) + '\n');
 }
 
