@@ -115,7 +115,7 @@ class WorldParts::Loading {
 
  private:
   size_t mostBlocks(int edge_blocks) const {
-    const auto edge = static_cast<size_t>(edge_blocks + 2 * edge_);
+    const size_t edge = static_cast<size_t>(edge_blocks) + 2 * static_cast<size_t>(edge_);
     return edge * edge * edge;
   }
 
