@@ -98,7 +98,7 @@ MapChanges ChangeLog::changesSince(uint64_t step) const {
   std::sort(updated.begin(), updated.end());
   for (const auto& entry : updated) changes.updated.push_back(slots_.blockOf(entry.second));
   if (changes.complete) return changes;
-  // Of a block that has come and gone again, the last of it counts.
+  // What became last of a block that has come and gone again counts.
   std::set<BlockIndex, BlockOrder> told(changes.updated.begin(), changes.updated.end());
   std::set<BlockIndex, BlockOrder> released, evicted;
   for (auto entry = departed_.rbegin(); entry != departed_.rend() && entry->step > step; ++entry) {

@@ -36,8 +36,7 @@ void Mapper::setParameters(const PipelineParameters& parameters) {
 MappingResult Mapper::fuse(const RgbdFrame& frame, const DepthFrame& depth, const Pose& T_W_D, bool is_given,
                            StageTimers& timers) {
   MappingResult result;
-  if (map_.slots().used() == 0 && submaps_.blockCount() == 0)
-    map_.placeWindow(windowCentre(frame, parameters_.depthRange(), T_W_D));
+  if (submaps_.isEmpty()) map_.placeWindow(windowCentre(frame, parameters_.depthRange(), T_W_D));
   submaps_.enter(T_W_D, is_given);
   view_range_m_ = kBeyond * farthest_m(depth) + 2.0 * static_cast<double>(map_.parameters().truncation_m);
   show(T_W_D, timers);

@@ -35,6 +35,11 @@ BlockIndex groupOf(const BlockIndex& block, int group_edge) {
   return block.unaryExpr([group_edge](int i) { return (i >= 0 ? i : i - group_edge + 1) / group_edge; });
 }
 
+BlockBox groupsAbout(const BlockBox& box, int group_edge) {
+  const BlockIndex first = groupOf(box.min(), group_edge), last = groupOf(box.max(), group_edge);
+  return {(first.array() - 1).matrix().eval(), (last.array() + 1).matrix().eval()};
+}
+
 BlockGroup clearedGroup(const std::vector<BlockIndex>& blocks, const LayerRow& layer, int block_size) {
   BlockGroup group{blocks, std::vector<int>(blocks.size(), 0), {}};
   for (size_t i = 0; i < blocks.size(); ++i) {

@@ -6,12 +6,16 @@
 
 #include "depth_fusion/map/block_index.h"
 #include "depth_fusion/map/block_layer.h"
+#include "depth_fusion/map/slot_table.h"
 
 namespace depth_fusion {
 
 // A group is a cube of blocks, of some 32 voxels to each axis; groups are counted as blocks are.
 int groupEdge(int block_size);
 BlockIndex groupOf(const BlockIndex& block, int group_edge);
+// The groups that a box of blocks meets, and those about it: a mesh's cells reach two blocks ahead, its
+// normals one back.
+BlockBox groupsAbout(const BlockBox& box, int group_edge);
 
 // Blocks of a group in a layer.
 struct BlockGroup {

@@ -24,31 +24,25 @@ BlockStore::~BlockStore() {
 }
 
 void BlockStore::put(const GroupKey& key, BlockGroups group) {
-  Lock lock(mutex_);
-  waitForRoom(lock);
-  usage_.blocks_put += group.front().blocks.size();
-  Entry& entry = entries_[key];
-  hold(entry, nullptr, nullptr);
-  forgetInDatabase(key, entry);
-  hold(entry, std::make_shared<const BlockGroups>(std::move(group)), nullptr);
-  to_pack_.push_back(key);
-  has_work_.notify_one();
+  const size_t blocks = group.front().blocks.size();
+  replace(key, std::make_shared<const BlockGroups>(std::move(group)), nullptr, blocks, to_pack_);
 }
 
 void BlockStore::putRows(const GroupKey& key, GroupRows rows, size_t blocks) {
+  replace(key, nullptr, std::make_shared<const GroupRows>(std::move(rows)), blocks, by_age_);
+}
+
+void BlockStore::replace(const GroupKey& key, GroupPtr group, RowsPtr rows, size_t blocks,
+                         std::deque<GroupKey>& queue) {
   Lock lock(mutex_);
-  waitForRoom(lock);
+  has_room_.wait(lock, [this] { return hasRoomNow() || !usage_.problem.empty(); });
   usage_.blocks_put += blocks;
   Entry& entry = entries_[key];
   hold(entry, nullptr, nullptr);
   forgetInDatabase(key, entry);
-  hold(entry, nullptr, std::make_shared<const GroupRows>(std::move(rows)));
-  by_age_.push_back(key);
+  hold(entry, std::move(group), std::move(rows));
+  queue.push_back(key);
   has_work_.notify_one();
-}
-
-void BlockStore::waitForRoom(Lock& lock) {
-  has_room_.wait(lock, [this] { return hasRoomNow() || !usage_.problem.empty(); });
 }
 
 bool BlockStore::hasRoomNow() const {

@@ -62,7 +62,7 @@ class BlockStore {
   };
   using Entries = std::map<GroupKey, Entry>;
 
-  // Of blocks that wait to be compressed, or to be taken, at most.
+  // So much waits to be compressed, or to be taken, at most.
   static constexpr size_t kQueueBytes = size_t{64} << 20;
 
   using KeyedRows = std::vector<std::pair<GroupKey, RowsPtr>>;
@@ -83,7 +83,8 @@ class BlockStore {
   // The group's rows, from wherever they are; the lock is let go of meanwhile.
   RowsPtr rowsOf(const GroupKey& key, Lock& lock);
   GroupRows read(const GroupKey& key);
-  void waitForRoom(Lock& lock);
+  // Takes a group in, in place of what was there, and enters it in the queue of what is to be done with it.
+  void replace(const GroupKey& key, GroupPtr group, RowsPtr rows, size_t blocks, std::deque<GroupKey>& queue);
   BlockGroups unpack(const GroupKey& key, const GroupRows& rows) const;
   Database& database();
   bool mustSpill() const { return usage_.memory_bytes > memory_limit_ && !by_age_.empty(); }

@@ -2,11 +2,6 @@
 
 namespace depth_fusion {
 
-BlockBox groupsAbout(const BlockBox& box, int group_edge) {
-  const BlockIndex first = groupOf(box.min(), group_edge), last = groupOf(box.max(), group_edge);
-  return {(first.array() - 1).matrix().eval(), (last.array() + 1).matrix().eval()};
-}
-
 PartLoader::PartLoader(ComputeContext& compute, const MapParameters& parameters, int edge_blocks,
                        size_t most_blocks)
     : edge_(groupEdge(parameters.block_size)), layers_(layersOf(parameters)) {
@@ -22,16 +17,12 @@ void PartLoader::load(WholeMap& world, const BlockBox& box) {
   map_->resetAt(edge_ * about.min());
   std::vector<BlockGroups> groups;
   std::vector<BlockIndex> blocks;
-  for (int z = about.min().z(); z <= about.max().z(); ++z) {
-    for (int y = about.min().y(); y <= about.max().y(); ++y) {
-      for (int x = about.min().x(); x <= about.max().x(); ++x) {
-        if (world.groups().count({x, y, z}) == 0) continue;
-        groups.push_back(world.groupOfWorld({x, y, z}));
-        const std::vector<BlockIndex>& of_group = groups.back().front().blocks;
-        blocks.insert(blocks.end(), of_group.begin(), of_group.end());
-      }
-    }
-  }
+  forEachIn(about, [&](const BlockIndex& group) {
+    if (world.groups().count(group) == 0) return;
+    groups.push_back(world.groupOfWorld(group));
+    const std::vector<BlockIndex>& of_group = groups.back().front().blocks;
+    blocks.insert(blocks.end(), of_group.begin(), of_group.end());
+  });
   const std::vector<int> slots = map_->insert(blocks);
   for (size_t layer = 0; layer < layers_.size(); ++layer) {
     std::string voxels;

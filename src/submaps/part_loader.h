@@ -7,9 +7,6 @@
 
 namespace depth_fusion {
 
-// The groups about a box of blocks: a mesh's cells reach two blocks ahead, its normals one back.
-BlockBox groupsAbout(const BlockBox& box, int group_edge);
-
 class PartLoader {
  public:
   // For boxes of so many blocks to each axis, which with the groups about them have so many blocks in all. Of

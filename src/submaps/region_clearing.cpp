@@ -76,9 +76,6 @@ class Eraser {
 size_t SubmapCollection::clear(const Eigen::AlignedBox3d& box_W,
                                const std::function<bool(const Eigen::Vector3d& p_W)>& isInside) {
   follow();
-  const auto blockAt = [&](const Eigen::Vector3d& p_W) -> BlockIndex {
-    return (p_W / block_m_).array().floor().cast<int>();
-  };
   const BlockBox box(blockAt(box_W.min()), blockAt(box_W.max()));
   Eraser eraser(map_, layers_, isInside);
   clearInPool(box, [&](const BlockGroups& group) { return eraser.clear(group); });
@@ -127,10 +124,8 @@ void SubmapCollection::clearInStore(const BlockBox& box, const Edit& edit) {
       const BlockStore::GroupPtr before = store_->take({i, group});
       BlockGroups rest = edit(*before);
       map_.noteChangedElsewhere(before->front().blocks);
-      submaps_[i].stored.erase(group);
-      if (rest.front().blocks.empty()) continue;
-      submaps_[i].stored[group] = rest.front().blocks.size();
-      store_->put({i, group}, std::move(rest));
+      setStored(i, group, rest.front().blocks.size());
+      if (!rest.front().blocks.empty()) store_->put({i, group}, std::move(rest));
     }
   }
   listAbsent();

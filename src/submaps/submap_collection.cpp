@@ -39,15 +39,14 @@ void SubmapCollection::follow() {
 void SubmapCollection::enter(const Pose& T_W_D, bool is_given) {
   follow();
   const Eigen::Vector3d p_W = T_W_D.translation();
-  if (submaps_.size() == 1 && blockCount() == 0) submaps_.front().window = map_.window();
+  if (submaps_.size() == 1 && isEmpty()) submaps_.front().window = map_.window();
   if (sensor_W_) {
     const double step_m = (p_W - *sensor_W_).norm();
     length_m_ += step_m;
     if (!is_given) way_m_ += step_m;
   }
   sensor_W_ = p_W;
-  const BlockIndex block = (p_W / block_m_).array().floor().cast<int>();
-  const bool is_inside = submaps_[active_].window.contains(block);
+  const bool is_inside = submaps_[active_].window.contains(blockAt(p_W));
   const bool is_long = parameters_.max_length_m > 0.0f && length_m_ > parameters_.max_length_m;
   if (is_inside && !is_long) return;
   const std::optional<uint32_t> next = is_inside ? std::nullopt : submapAbout(p_W);
@@ -55,7 +54,7 @@ void SubmapCollection::enter(const Pose& T_W_D, bool is_given) {
 }
 
 void SubmapCollection::begin(const Window& window) {
-  submaps_.push_back({window, 0.0, {}});
+  submaps_.push_back({window, 0.0, {}, 0});
   activate(static_cast<uint32_t>(submaps_.size() - 1));
 }
 
@@ -73,7 +72,7 @@ bool SubmapCollection::isSure(uint32_t submap) const {
 }
 
 std::optional<uint32_t> SubmapCollection::submapAbout(const Eigen::Vector3d& p_W) const {
-  const BlockIndex block = (p_W / block_m_).array().floor().cast<int>();
+  const BlockIndex block = blockAt(p_W);
   std::optional<uint32_t> nearest;
   int least_blocks = 0;
   for (uint32_t i = 0; i < submaps_.size(); ++i) {
@@ -96,7 +95,7 @@ void SubmapCollection::adopt(const MapDescription& description, std::vector<Grou
   store_ = std::move(store);
   for (size_t i = 0; i < stored.size(); ++i) {
     const SubmapDescription& submap = description.submaps[i];
-    submaps_.push_back({submap.window, submap.left_at_m, std::move(stored[i])});
+    submaps_.push_back({submap.window, submap.left_at_m, std::move(stored[i]), submap.blocks});
   }
   active_ = description.active_submap;
   way_m_ = description.way_m;
@@ -107,8 +106,7 @@ void SubmapCollection::adopt(const MapDescription& description, std::vector<Grou
 std::vector<SubmapDescription> SubmapCollection::submaps() const {
   std::vector<SubmapDescription> descriptions;
   for (uint32_t i = 0; i < submaps_.size(); ++i) {
-    uint64_t blocks = i == active_ ? map_.slots().used() : 0;
-    for (const auto& [group, count] : submaps_[i].stored) blocks += count;
+    const size_t blocks = submaps_[i].stored_blocks + (i == active_ ? map_.slots().used() : 0);
     descriptions.push_back({i, Pose::Identity(), submaps_[i].window, blocks, submaps_[i].left_at_m});
   }
   return descriptions;
@@ -120,8 +118,7 @@ std::vector<SubmapExtent> SubmapCollection::extents() const {
   for (uint32_t i = 0; i < submaps_.size(); ++i) {
     BlockBox box;
     for (const auto& [group, count] : submaps_[i].stored) {
-      box.extend(edge_ * group);
-      box.extend((edge_ * group.array() + edge_ - 1).matrix());
+      box.extend(cubeFrom(edge_ * group, edge_));
     }
     if (i == active_) {
       for (const BlockBox& of_slots : map_.slots().groupBoxes()) {
@@ -136,8 +133,7 @@ std::vector<SubmapExtent> SubmapCollection::extents() const {
 }
 
 Eigen::AlignedBox3d SubmapCollection::windowBox() const {
-  const Window& window = map_.window();
-  return boxInW({window.origin, (window.origin.array() + window.blocks_per_axis - 1).matrix().eval()});
+  return boxInW(cubeFrom(map_.window().origin, map_.window().blocks_per_axis));
 }
 
 Eigen::AlignedBox3d SubmapCollection::boxInW(const BlockBox& blocks) const {
@@ -154,23 +150,34 @@ std::vector<BlockIndex> SubmapCollection::storedGroups() const {
 }
 
 bool SubmapCollection::isInPool(const BlockBox& box) const {
-  const BlockIndex first = groupOf(box.min(), edge_).array() - 1,
-                   last = groupOf(box.max(), edge_).array() + 1;
-  for (int z = first.z(); z <= last.z(); ++z) {
-    for (int y = first.y(); y <= last.y(); ++y) {
-      for (int x = first.x(); x <= last.x(); ++x) {
-        const auto has = [&](const Submap& submap) { return submap.stored.count({x, y, z}) > 0; };
-        if (std::any_of(submaps_.begin(), submaps_.end(), has)) return false;
-      }
-    }
-  }
-  return true;
+  bool is_elsewhere = false;
+  forEachIn(groupsAbout(box, edge_), [&](const BlockIndex& group) {
+    for (const Submap& submap : submaps_) is_elsewhere = is_elsewhere || submap.stored.count(group) > 0;
+  });
+  return !is_elsewhere;
 }
 
 size_t SubmapCollection::blockCount() const {
-  size_t blocks = 0;
-  for (const SubmapDescription& submap : submaps()) blocks += submap.blocks;
+  size_t blocks = map_.slots().used();
+  if (map_.generation() != generation_)
+    return blocks;  // it was emptied, and what is stored is of the one before
+  for (const Submap& submap : submaps_) blocks += submap.stored_blocks;
   return blocks;
+}
+
+BlockIndex SubmapCollection::blockAt(const Eigen::Vector3d& p_W) const {
+  return (p_W / block_m_).array().floor().cast<int>();
+}
+
+void SubmapCollection::setStored(uint32_t submap, const BlockIndex& group, size_t blocks) {
+  Submap& changed = submaps_[submap];
+  const auto before = changed.stored.find(group);
+  if (before != changed.stored.end()) {
+    changed.stored_blocks -= before->second;
+    changed.stored.erase(before);
+  }
+  if (blocks > 0) changed.stored[group] = blocks;
+  changed.stored_blocks += blocks;
 }
 
 StoreUsage SubmapCollection::usage() const { return store_->usage(); }

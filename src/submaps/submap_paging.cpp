@@ -47,8 +47,8 @@ void SubmapCollection::show(const CameraIntrinsics& camera, const Pose& T_W_D, d
 
 void SubmapCollection::moveWindow() {
   const Window& window = map_.window();
-  const BlockIndex first = (view_->box().min() / block_m_).array().floor().cast<int>() - 1;
-  const BlockIndex last = (view_->box().max() / block_m_).array().floor().cast<int>() + 1;
+  const BlockIndex first = blockAt(view_->box().min()).array() - 1;
+  const BlockIndex last = blockAt(view_->box().max()).array() + 1;
   if (window.contains(first) && window.contains(last)) return;
   Window moved = window;
   for (int axis = 0; axis < 3; ++axis)
@@ -78,13 +78,12 @@ bool SubmapCollection::evict(const std::vector<int>& slots) {
 
 void SubmapCollection::store(const BlockIndex& group, BlockGroups blocks) {
   for (uint32_t i = 0; i < submaps_.size(); ++i) {
-    const auto other_part = submaps_[i].stored.find(group);
-    if (!isSure(i) || other_part == submaps_[i].stored.end()) continue;
+    if (!isSure(i) || submaps_[i].stored.count(group) == 0) continue;
     const BlockStore::GroupPtr other = store_->take({i, group});
     blocks = joined(blocks, *other);
-    submaps_[i].stored.erase(other_part);
+    setStored(i, group, 0);
   }
-  submaps_[active_].stored[group] = blocks.front().blocks.size();
+  setStored(active_, group, blocks.front().blocks.size());
   store_->put({active_, group}, std::move(blocks));
   absent_[group] = active_;
 }
@@ -93,18 +92,14 @@ void SubmapCollection::makeRoom(size_t slots) {
   if (map_.slots().free() >= slots || view_ == nullptr) return;
   struct Candidate {
     double distance_m;
-    BlockIndex group;
     std::vector<int> slots;
   };
-  std::map<BlockIndex, Candidate, BlockOrder> groups;
-  for (const SlotTable::Block& block : map_.slots().blocks()) {
-    Candidate& candidate = groups[groupOf(block.index, edge_)];
-    candidate.slots.push_back(block.slot);
-  }
+  std::map<BlockIndex, std::vector<int>, BlockOrder> groups;
+  for (const SlotTable::Block& block : map_.slots().blocks())
+    groups[groupOf(block.index, edge_)].push_back(block.slot);
   std::vector<Candidate> hidden;
-  for (auto& [index, candidate] : groups) {
-    if (!isSeen(index))
-      hidden.push_back({distance_m(index, view_->box().center()), index, std::move(candidate.slots)});
+  for (auto& [group, of_group] : groups) {
+    if (!isSeen(group)) hidden.push_back({distance_m(group, view_->box().center()), std::move(of_group)});
   }
   std::sort(hidden.begin(), hidden.end(),
             [](const Candidate& a, const Candidate& b) { return a.distance_m > b.distance_m; });
@@ -123,12 +118,10 @@ void SubmapCollection::bringBackSeen() {
   const Eigen::AlignedBox3d box = view_->box();
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kAhead_m);
   const Eigen::AlignedBox3d near(box.min() - margin, box.max() + margin);
-  const double edge_m = block_m_ * edge_;
   for (const auto& [group, submap] : absent_) {
     if (isSeen(group)) {
       seen.push_back(group);
-    } else if (near.contains(edge_m * (group.cast<double>().array() + 0.5).matrix()) &&
-               ahead_.insert(group).second) {
+    } else if (near.contains(middleOf(group)) && ahead_.insert(group).second) {
       ahead.push_back({submap, group});
     }
   }
@@ -185,14 +178,12 @@ SubmapCollection::BlockSet SubmapCollection::bringBack(const std::vector<BlockIn
 SubmapCollection::BlockGroups SubmapCollection::takeFromStore(const BlockIndex& group) {
   const uint32_t submap = absent_.at(group);
   const BlockStore::GroupPtr stored = store_->take({submap, group});
-  submaps_[submap].stored.erase(group);
   absent_.erase(group);
   ahead_.erase(group);
   BlockGroups outside = partOf(*stored, map_.window(), false);
-  if (const size_t rest = outside.front().blocks.size(); rest > 0) {
-    submaps_[submap].stored[group] = rest;
-    store_->put({submap, group}, std::move(outside));
-  }
+  const size_t rest = outside.front().blocks.size();
+  setStored(submap, group, rest);
+  if (rest > 0) store_->put({submap, group}, std::move(outside));
   return partOf(*stored, map_.window(), true);
 }
 
@@ -234,13 +225,15 @@ void SubmapCollection::listAbsent() {
 }
 
 bool SubmapCollection::isSeen(const BlockIndex& group) const {
-  const double edge_m = block_m_ * edge_;
-  const Eigen::Vector3d centre_W = edge_m * (group.cast<double>().array() + 0.5).matrix();
-  return view_->meets(centre_W, Eigen::Vector3d::Constant(0.5 * edge_m + block_m_));
+  return view_->meets(middleOf(group), Eigen::Vector3d::Constant((0.5 * edge_ + 1.0) * block_m_));
 }
 
 double SubmapCollection::distance_m(const BlockIndex& group, const Eigen::Vector3d& p_W) const {
-  return (block_m_ * edge_ * (group.cast<double>().array() + 0.5).matrix() - p_W).norm();
+  return (middleOf(group) - p_W).norm();
+}
+
+Eigen::Vector3d SubmapCollection::middleOf(const BlockIndex& group) const {
+  return block_m_ * edge_ * (group.cast<double>().array() + 0.5).matrix();
 }
 
 std::string SubmapCollection::problem() const {

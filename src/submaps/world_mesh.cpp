@@ -26,10 +26,8 @@ class WorldSource final : public MeshSource {
     std::set<BlockIndex, BlockOrder> places;
     for (const auto& [group, counts] : world_.groups()) places.insert(placeOf(group));
     std::vector<BlockBox> parts;
-    for (const BlockIndex& place : places) {
-      const BlockIndex first = origin() + part_blocks_ * place;
-      parts.emplace_back(first, (first.array() + part_blocks_ - 1).matrix().eval());
-    }
+    for (const BlockIndex& place : places)
+      parts.push_back(cubeFrom(origin() + part_blocks_ * place, part_blocks_));
     return parts;
   }
   BlockIndex origin() const override { return edge_ * first_group_; }
@@ -102,12 +100,7 @@ class WorldParts::Loading {
 
   BlockMap& load(const BlockBox& box) {
     std::set<BlockIndex, BlockOrder> groups;
-    const BlockBox about = groupsAbout(box, edge_);
-    for (int z = about.min().z(); z <= about.max().z(); ++z) {
-      for (int y = about.min().y(); y <= about.max().y(); ++y) {
-        for (int x = about.min().x(); x <= about.max().x(); ++x) groups.insert({x, y, z});
-      }
-    }
+    forEachIn(groupsAbout(box, edge_), [&](const BlockIndex& group) { groups.insert(group); });
     WholeMap part(submaps_, &groups);
     loader_.load(part, box);
     return loader_.map();
@@ -132,8 +125,7 @@ WorldParts::~WorldParts() = default;
 std::vector<BlockBox> WorldParts::boxes() const {
   const int edge = groupEdge(submaps_.map().parameters().block_size);
   std::vector<BlockBox> boxes;
-  for (const BlockIndex& group : submaps_.storedGroups())
-    boxes.emplace_back(edge * group, (edge * group.array() + edge - 1).matrix().eval());
+  for (const BlockIndex& group : submaps_.storedGroups()) boxes.push_back(cubeFrom(edge * group, edge));
   return boxes;
 }
 

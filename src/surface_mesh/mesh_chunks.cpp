@@ -195,8 +195,7 @@ TriangleMesh MeshChunks::extractFrom(BlockMap& map, const MeshChunkIndex& chunk)
 }
 
 BlockBox MeshChunks::boxOf(const MeshChunkIndex& chunk) const {
-  const BlockIndex first = blocks_per_axis_ * BlockIndex(chunk[0], chunk[1], chunk[2]);
-  return {first, (first.array() + blocks_per_axis_ - 1).matrix().eval()};
+  return cubeFrom(blocks_per_axis_ * BlockIndex(chunk[0], chunk[1], chunk[2]), blocks_per_axis_);
 }
 
 TriangleMesh MeshChunks::extract(SurfaceMeshKernels& kernels, const BlockMap& map,

@@ -13,8 +13,7 @@ class MapSource final : public MeshSource {
   explicit MapSource(BlockMap& map) : map_(map) {}
 
   std::vector<BlockBox> parts() override {
-    const BlockIndex& first = map_.window().origin;
-    return {{first, (first.array() + map_.window().blocks_per_axis - 1).matrix().eval()}};
+    return {cubeFrom(map_.window().origin, map_.window().blocks_per_axis)};
   }
   BlockIndex origin() const override { return map_.window().origin; }
   BlockMap& map() override { return map_; }

@@ -38,13 +38,17 @@ class Walk {
     write(T_W_D);
   }
 
+  SaveReport save(MapSaver& saver) {
+    saver.prepare();
+    saver.capture(submaps_, describing(map_), {});
+    return saver.write();
+  }
+
   // All the blocks of the map, wherever they are; of the pool only those in view must be there.
   void expectAll() {
     TemporaryFolder folder;
     MapSaver saver(folder / "whole.map");
-    saver.prepare();
-    saver.capture(submaps_, describing(map_), {});
-    const SaveReport report = saver.write();
+    const SaveReport report = save(saver);
     EXPECT_EQ(report.blocks, expected_.size());
     EXPECT_EQ(submaps_.blockCount(), expected_.size());
     BlockMap other(compute(), map_.parameters());

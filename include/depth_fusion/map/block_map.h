@@ -83,7 +83,7 @@ class BlockMap {
   MapSubscription follow() { return changes_.subscribe(); }
   bool isFollowed() const { return changes_.isFollowed(); }
   void noteUpdated(const std::vector<int>& slots) { changes_.noteUpdated(slots); }
-  // The same of blocks that are kept elsewhere.
+  // Blocks that are kept elsewhere have other contents.
   void noteChangedElsewhere(const std::vector<BlockIndex>& blocks) { changes_.noteChangedElsewhere(blocks); }
   uint32_t generation() const { return changes_.generation(); }
 

@@ -72,7 +72,7 @@ class ChangeLog {
 
  private:
   friend class MapSubscription;
-  // Of a block that has left its slot.
+  // A block has left its slot.
   struct Departure {
     uint64_t step;
     BlockIndex block;

@@ -11,9 +11,23 @@ namespace depth_fusion {
 
 using BlockBox = Eigen::AlignedBox3i;  // its corners are blocks inside
 
-// Slots are numbered from 0 on. Those released last are given away first, in
-// their order. It lives on the host alone; the way
-// back, from a block to its slot, is the map's `offsets` on the device.
+// The cube of so many blocks to each axis from the first one on.
+inline BlockBox cubeFrom(const BlockIndex& first, int edge_blocks) {
+  return {first, (first.array() + edge_blocks - 1).matrix().eval()};
+}
+
+// Calls with each block of the box, by z, then y, then x.
+template <class Function>
+void forEachIn(const BlockBox& box, const Function& function) {
+  for (int z = box.min().z(); z <= box.max().z(); ++z) {
+    for (int y = box.min().y(); y <= box.max().y(); ++y) {
+      for (int x = box.min().x(); x <= box.max().x(); ++x) function(BlockIndex(x, y, z));
+    }
+  }
+}
+
+// Slots are numbered from 0 on. Those released last are given away first, in their order. It lives on the
+// host alone; the way back, from a block to its slot, is the map's `offsets` on the device.
 class SlotTable {
  public:
   struct Block {

@@ -53,7 +53,7 @@ class MapSaver {
   // Error if nothing can be written there.
   void prepare();
   // Keeps what has changed of the map, as it is now, for write(); whoever calls it holds what guards the map.
-  // Of the description, the caller gives parameters, camera and last pose. Throws Error if what the pool does
+  // The caller gives parameters, camera and last pose of the description. Throws Error if what the pool does
   // not hold cannot be read.
   void capture(SubmapCollection& submaps, const MapDescription& description, const Keyframes& keyframes);
   // Writes what was captured last. Throws Error if it cannot be written; what is stored is then as it was,

@@ -60,7 +60,7 @@ class SubmapCollection {
 
   // The submaps, in the order in which they began, with the blocks that they have in the pool and elsewhere.
   std::vector<SubmapDescription> submaps() const;
-  // Those that have blocks.
+  // Where the submaps are that have blocks.
   std::vector<SubmapExtent> extents() const;
   // The map's window.
   Eigen::AlignedBox3d windowBox() const;
@@ -68,8 +68,9 @@ class SubmapCollection {
   BlockMap& map() { return map_; }
   const BlockMap& map() const { return map_; }
   double way_m() const { return way_m_; }
-  // Of all the submaps.
+  // The blocks of all the submaps.
   size_t blockCount() const;
+  bool isEmpty() const { return blockCount() == 0; }
   StoreUsage usage() const;
   // Why something is left out; empty if all is well.
   std::string problem() const;
@@ -83,6 +84,7 @@ class SubmapCollection {
     Window window;
     double left_at_m = 0.0;  // on the sensor's way, when it was active last
     GroupSizes stored;
+    size_t stored_blocks = 0;  // of all of them, so that nobody has to go through them
   };
 
   using BlockSet = std::set<BlockIndex, BlockOrder>;
@@ -96,6 +98,9 @@ class SubmapCollection {
   void adopt(const MapDescription& description, std::vector<GroupSizes> stored,
              std::unique_ptr<BlockStore> store, const Window& window);
   Eigen::AlignedBox3d boxInW(const BlockBox& blocks) const;
+  BlockIndex blockAt(const Eigen::Vector3d& p_W) const;
+  // The store has so many blocks of the submap's group; 0: none.
+  void setStored(uint32_t submap, const BlockIndex& group, size_t blocks);
   // Forgets everything if the map was emptied.
   void follow();
   // Another submap begins, and is active.
@@ -124,6 +129,7 @@ class SubmapCollection {
   void listAbsent();
   bool isSeen(const BlockIndex& group) const;
   double distance_m(const BlockIndex& group, const Eigen::Vector3d& p_W) const;
+  Eigen::Vector3d middleOf(const BlockIndex& group) const;
 
   BlockMap& map_;
   SubmapParameters parameters_;

@@ -42,7 +42,7 @@ class WorldParts final : public MeshChunks::Elsewhere {
   WorldParts(ComputeContext& compute, SubmapCollection& submaps);
   ~WorldParts() override;
 
-  // Of groups of blocks, each no larger than a chunk.
+  // They are boxes of groups of blocks, each no larger than a chunk.
   std::vector<BlockBox> boxes() const override;
   // A map that has the blocks of the box, and those about it, until the next call; null if the pool has all
   // that there are. The boxes are cubes of the same size. Whoever calls it holds what guards the map. Throws

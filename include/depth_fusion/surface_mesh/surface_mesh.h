@@ -38,8 +38,8 @@ class MeshSource {
 MeshStatistics exportSurfaceMesh(ComputeContext& compute, BlockMap& map, MeshSink& sink,
                                  SurfaceMeshParameters parameters = {});
 
-// The same of a map that comes part by part. The order of vertices and triangles depends on the source's
-// origin.
+// Extracts the surface of a map that comes part by part. The order of vertices and triangles depends on the
+// source's origin.
 MeshStatistics exportSurfaceMesh(ComputeContext& compute, MeshSource& source, MeshSink& sink,
                                  SurfaceMeshParameters parameters = {});
 

@@ -26,7 +26,7 @@ class FusedMap {
   // The part of it that is in the pool.
   BlockMap& map() { return map_; }
   SubmapCollection& submaps() { return submaps_; }
-  bool isEmpty() const { return map_.slots().used() == 0 && submaps_.blockCount() == 0; }
+  bool isEmpty() const { return submaps_.isEmpty(); }
   // The mapper for frames of that camera, until the next call or reset(). Throws Error if the device cannot.
   Mapper& mapper(const CameraIntrinsics& camera);
   // Where the camera was when the last frame was fused; the origin of a map without frames.

@@ -124,12 +124,7 @@ TEST(SubmapCollection, ARegionIsClearedInThePoolAndElsewhere) {
   for (double x = 0.0; x < 6.0; x += 0.05) walk.goTo(x);
   TemporaryFolder folder;
   MapSaver saver(folder / "whole.map");
-  const auto save = [&] {
-    saver.prepare();
-    saver.capture(walk.submaps(), describing(walk.map()), {});
-    return saver.write();
-  };
-  save();
+  walk.save(saver);
   const Eigen::AlignedBox3d box(Eigen::Vector3d(2.003, -5.0, -5.0), Eigen::Vector3d(6.0, 5.0, 5.0));
   const size_t met = walk.submaps().clear(box, [&](const Eigen::Vector3d& p) { return box.contains(p); });
   EXPECT_GT(met, 100u);
@@ -151,7 +146,7 @@ TEST(SubmapCollection, ARegionIsClearedInThePoolAndElsewhere) {
   EXPECT_GT(cut, 0u);
   walk.expectAll();
   // A save writes what was cleared, wherever it is.
-  const SaveReport report = save();
+  const SaveReport report = walk.save(saver);
   EXPECT_EQ(report.blocks, walk.expected().size());
   BlockMap other(compute(), walk.map().parameters());
   SubmapCollection loaded(other, {});
@@ -164,16 +159,11 @@ TEST(SubmapCollection, LaterSavesWriteWhatHasChanged) {
   Walk walk(windowOf(32), smallMemory());
   TemporaryFolder folder;
   MapSaver saver(folder / "whole.map");
-  const auto save = [&] {
-    saver.prepare();
-    saver.capture(walk.submaps(), describing(walk.map()), {});
-    return saver.write();
-  };
   for (double x = 0.0; x < 4.0; x += 0.05) walk.goTo(x);
-  EXPECT_EQ(save().blocks_written, walk.expected().size());
-  EXPECT_EQ(save().blocks_written, 0u);
+  EXPECT_EQ(walk.save(saver).blocks_written, walk.expected().size());
+  EXPECT_EQ(walk.save(saver).blocks_written, 0u);
   for (double x = 4.0; x < 6.0; x += 0.05) walk.goTo(x);
-  const SaveReport report = save();
+  const SaveReport report = walk.save(saver);
   EXPECT_GT(report.blocks_written, 0u);
   EXPECT_LT(report.blocks_written, report.blocks);
   BlockMap other(compute(), walk.map().parameters());
@@ -189,9 +179,7 @@ TEST(SubmapCollection, ALoadedMapIsPagedAsItWas) {
   Walk first(windowOf(32), smallMemory());
   for (double x = 0.0; x < 6.0; x += 0.05) first.goTo(x);
   MapSaver saver(folder / "whole.map");
-  saver.prepare();
-  saver.capture(first.submaps(), describing(first.map()), {});
-  saver.write();
+  first.save(saver);
   Walk second(windowOf(32), smallMemory());
   const auto database = openDatabase(folder / "whole.map", DatabaseAccess::kRead);
   ReadMap read(*database, second.submaps());
@@ -206,6 +194,7 @@ TEST(SubmapCollection, AResetForgetsAll) {
   Walk walk(windowOf(32), smallMemory());
   for (double x = 0.0; x < 4.0; x += 0.05) walk.goTo(x);
   walk.map().reset(Eigen::Vector3d::Zero());
+  EXPECT_TRUE(walk.submaps().isEmpty());
   walk.expected().clear();
   walk.goTo(0.0);
   EXPECT_EQ(walk.submaps().submaps().size(), 1u);
