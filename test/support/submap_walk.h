@@ -74,9 +74,12 @@ class Walk {
     return contents;
   }
   static Contents contentsOf(BlockMap& map) {
+    const std::vector<SlotTable::Block> blocks = map.slots().blocks();
+    std::vector<int> slots;
+    for (const SlotTable::Block& block : blocks) slots.push_back(block.slot);
+    const std::string voxels = map.voxels(kTsdfLayer, slots);
     Contents contents;
-    for (const SlotTable::Block& block : map.slots().blocks())
-      contents[block.index] = map.voxels(kTsdfLayer, {block.slot});
+    for (size_t i = 0; i < blocks.size(); ++i) contents[blocks[i].index] = voxels.substr(1024 * i, 1024);
     return contents;
   }
 
