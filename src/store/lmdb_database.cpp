@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -29,6 +30,7 @@ struct LmdbFile {
   std::string path;
   LmdbEnvironment environment;
   MDB_dbi rows = 0;
+  std::atomic<size_t> touched_bytes{0};  // since its pages were released
 };
 using LmdbFilePtr = std::shared_ptr<LmdbFile>;
 
@@ -38,6 +40,9 @@ LmdbTransaction begin(const LmdbFile& file, unsigned flags) {
             (flags & MDB_RDONLY) != 0 ? "cannot be read" : "cannot be written");
   return LmdbTransaction(transaction);
 }
+
+// So much may be read or written before the file's pages are released.
+constexpr size_t kTouchedBytes = size_t{16} << 20;
 
 // Reads for either kind of transaction.
 template <class Interface>
@@ -50,6 +55,7 @@ class LmdbRows : public Interface {
     const int code = mdb_get(transaction_.get(), file_->rows, &name, &value);
     if (code == MDB_NOTFOUND) return std::nullopt;
     checkLmdb(code, file_->path, "cannot be read");
+    noteTouched(value.mv_size);
     return bytesOf(value);
   }
 
@@ -62,12 +68,21 @@ class LmdbRows : public Interface {
     for (; code == MDB_SUCCESS; code = mdb_cursor_get(opened, &key, &value, MDB_NEXT)) {
       const std::string name = bytesOf(key);
       if (name.compare(0, prefix.size(), prefix) != 0) return;
+      noteTouched(value.mv_size);
       visit(name, bytesOf(value));
     }
     if (code != MDB_NOTFOUND) checkLmdb(code, file_->path, "cannot be read");
   }
 
  protected:
+  // A value of so many bytes was read or written.
+  void noteTouched(size_t bytes) {
+    file_->touched_bytes += bytes;
+    if (file_->touched_bytes < kTouchedBytes) return;
+    file_->touched_bytes = 0;
+    releasePages(file_->environment.get());
+  }
+
   LmdbFilePtr file_;
   LmdbTransaction transaction_;
 };
@@ -84,6 +99,7 @@ class LmdbWriter final : public LmdbRows<DatabaseWriter> {
   void put(const std::string& key, const std::string& bytes) override {
     MDB_val name = valueOf(key), value = valueOf(bytes);
     checked(mdb_put(transaction_.get(), file_->rows, &name, &value, 0));
+    noteTouched(value.mv_size);
   }
   void erase(const std::string& key) override {
     MDB_val name = valueOf(key);

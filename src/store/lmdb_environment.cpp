@@ -1,8 +1,11 @@
 #include "store/lmdb_environment.h"
 
+#include <sys/mman.h>
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <cstdio>
+#include <fstream>
 
 #include "depth_fusion/common/error.h"
 
@@ -63,6 +66,21 @@ LmdbEnvironment openEnvironment(const std::string& path, unsigned flags, FileLen
     checkLmdb(code, path, "cannot be opened");
     if (length == FileLength::kMustFit) checkLength(created, path);
     return environment;
+  }
+}
+
+void releasePages(MDB_env* environment) {
+  int descriptor = -1;
+  struct stat file {};
+  if (mdb_env_get_fd(environment, &descriptor) != MDB_SUCCESS || fstat(descriptor, &file) != 0) return;
+  // LMDB does not tell where it has mapped the file.
+  std::ifstream mappings("/proc/self/maps");
+  for (std::string line; std::getline(mappings, line);) {
+    size_t begin = 0, end = 0, inode = 0;
+    const int found = std::sscanf(line.c_str(), "%zx-%zx %*s %*s %*s %zu", &begin, &end, &inode);
+    if (found == 3 && inode == file.st_ino)
+      madvise(reinterpret_cast<void*>(begin), end - begin,
+              MADV_DONTNEED);  // NOLINT(performance-no-int-to-ptr)
   }
 }
 

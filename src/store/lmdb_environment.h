@@ -33,4 +33,8 @@ enum class FileLength { kMustFit, kMayBeCut };
 LmdbEnvironment openEnvironment(const std::string& path, unsigned flags,
                                 FileLength length = FileLength::kMustFit);
 
+// Takes the file's pages out of the memory of the process; those that are wanted again come from the system's
+// cache. Others may read meanwhile.
+void releasePages(MDB_env* environment);
+
 }  // namespace depth_fusion

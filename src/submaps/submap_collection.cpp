@@ -30,6 +30,7 @@ void SubmapCollection::follow() {
   submaps_.clear();
   absent_.clear();
   ahead_.clear();
+  leaving_.clear();
   sensor_W_.reset();
   way_m_ = length_m_ = 0.0;
   store_->clear();

@@ -1,6 +1,5 @@
-// Between the pool and the store.
+// From the store into the pool.
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -15,100 +14,16 @@ namespace {
 
 constexpr double kAhead_m = 1.0;  // beyond the view, from where on groups are read ahead
 
-// The greatest multiple of the edge that is not above the number.
-int alignedDown(int number, int edge) { return (number >= 0 ? number : number - edge + 1) / edge * edge; }
-
-// Where, along an axis, a window of n blocks begins that has the blocks from `first` to `last` inside and
-// lies on the grid of groups.
-int movedAlong(int origin, int n, int first, int last, int edge) {
-  const bool fits = last - first + 1 + 2 * edge <= n;
-  if (!fits) {
-    // The window is smaller than the view: it has the view's middle in its own.
-    const int middle = alignedDown((first + last + 1 - n) / 2, edge);
-    return std::abs(middle - origin) > n / 4 ? middle : origin;
-  }
-  if (first < origin) return alignedDown(first - edge, edge);
-  if (last >= origin + n) return alignedDown(last + 1 - n + 2 * edge - 1, edge);
-  const int below = alignedDown(origin, edge);
-  return last < below + n ? below : alignedDown(origin + edge - 1, edge);
-}
-
 }  // namespace
 
 void SubmapCollection::show(const CameraIntrinsics& camera, const Pose& T_W_D, double max_range_m) {
   follow();
   problem_.clear();
   view_ = std::make_unique<ViewVolume>(camera, T_W_D.inverse(), max_range_m);
-  moveWindow();
+  if (!moveWindow()) evictAhead();
   const size_t capacity = map_.slots().capacity();
   if (map_.slots().free() < capacity / 16) makeRoom(capacity / 8);
   bringBackSeen();
-}
-
-void SubmapCollection::moveWindow() {
-  const Window& window = map_.window();
-  const BlockIndex first = blockAt(view_->box().min()).array() - 1;
-  const BlockIndex last = blockAt(view_->box().max()).array() + 1;
-  if (window.contains(first) && window.contains(last)) return;
-  Window moved = window;
-  for (int axis = 0; axis < 3; ++axis)
-    moved.origin[axis] =
-        movedAlong(window.origin[axis], window.blocks_per_axis, first[axis], last[axis], edge_);
-  if (moved.origin == window.origin) return;
-  std::vector<int> outside;
-  for (int slot = 0; slot < map_.slots().bound(); ++slot) {
-    if (map_.slots().inUse(slot) && !moved.contains(map_.slots().blockOf(slot))) outside.push_back(slot);
-  }
-  if (!evict(outside)) return;
-  map_.moveWindow(moved.origin);
-  listAbsent();
-}
-
-bool SubmapCollection::evict(const std::vector<int>& slots) {
-  if (slots.empty()) return true;
-  if (!store_->hasRoom()) {
-    problem_ = "what the sensor has left behind cannot be stored (" + store_->usage().problem +
-               "), and its memory is full: new surface is left out";
-    return false;
-  }
-  for (auto& [group, blocks] : groupsIn(map_, layers_, slots)) store(group, std::move(blocks));
-  map_.evict(slots);
-  return true;
-}
-
-void SubmapCollection::store(const BlockIndex& group, BlockGroups blocks) {
-  for (uint32_t i = 0; i < submaps_.size(); ++i) {
-    if (!isSure(i) || submaps_[i].stored.count(group) == 0) continue;
-    const BlockStore::GroupPtr other = store_->take({i, group});
-    blocks = joined(blocks, *other);
-    setStored(i, group, 0);
-  }
-  setStored(active_, group, blocks.front().blocks.size());
-  store_->put({active_, group}, std::move(blocks));
-  absent_[group] = active_;
-}
-
-void SubmapCollection::makeRoom(size_t slots) {
-  if (map_.slots().free() >= slots || view_ == nullptr) return;
-  struct Candidate {
-    double distance_m;
-    std::vector<int> slots;
-  };
-  std::map<BlockIndex, std::vector<int>, BlockOrder> groups;
-  for (const SlotTable::Block& block : map_.slots().blocks())
-    groups[groupOf(block.index, edge_)].push_back(block.slot);
-  std::vector<Candidate> hidden;
-  for (auto& [group, of_group] : groups) {
-    if (!isSeen(group)) hidden.push_back({distance_m(group, view_->box().center()), std::move(of_group)});
-  }
-  std::sort(hidden.begin(), hidden.end(),
-            [](const Candidate& a, const Candidate& b) { return a.distance_m > b.distance_m; });
-  std::vector<int> evicted;
-  for (const Candidate& candidate : hidden) {
-    if (map_.slots().free() + evicted.size() >= slots) break;
-    evicted.insert(evicted.end(), candidate.slots.begin(), candidate.slots.end());
-  }
-  evict(evicted);
 }
 
 void SubmapCollection::bringBackSeen() {

@@ -30,12 +30,17 @@ class Walk {
 
   // The sensor looks along x, or back, from there.
   void goTo(double x_m, double y_m = 0.0, bool back = false, bool is_given = true) {
-    Pose T_W_D = Pose::Identity();
-    T_W_D.linear() << 0, 0, back ? -1 : 1, -1, 0, 0, 0, back ? 1 : -1, 0;
-    T_W_D.translation() << x_m, y_m, 0.0;
+    const Pose T_W_D = poseAt(x_m, y_m, back);
     submaps_.enter(T_W_D, is_given);
     submaps_.show(kWalkCamera, T_W_D, kWalkRange_m);
     write(T_W_D);
+  }
+
+  // The same without writing.
+  void look(double x_m, bool back = false) {
+    const Pose T_W_D = poseAt(x_m, 0.0, back);
+    submaps_.enter(T_W_D, true);
+    submaps_.show(kWalkCamera, T_W_D, kWalkRange_m);
   }
 
   SaveReport save(MapSaver& saver) {
@@ -84,6 +89,13 @@ class Walk {
   }
 
  private:
+  static Pose poseAt(double x_m, double y_m, bool back) {
+    Pose T_W_D = Pose::Identity();
+    T_W_D.linear() << 0, 0, back ? -1 : 1, -1, 0, 0, 0, back ? 1 : -1, 0;
+    T_W_D.translation() << x_m, y_m, 0.0;
+    return T_W_D;
+  }
+
   // Changes some blocks of a wall in view, makes those that are not there, and takes some away.
   void write(const Pose& T_W_D) {
     const double block_m = 8.0 * static_cast<double>(map_.parameters().voxel_size_m);

@@ -90,6 +90,8 @@ class SubmapCollection {
   using BlockSet = std::set<BlockIndex, BlockOrder>;
   using BlockGroups = std::vector<BlockGroup>;  // of each layer, with the same blocks
 
+  using GroupSlots = std::map<BlockIndex, std::vector<int>, BlockOrder>;
+
   // What is left of a group of blocks.
   using Edit = std::function<BlockGroups(const BlockGroups&)>;
   void clearInPool(const BlockBox& box, const Edit& edit);
@@ -110,9 +112,15 @@ class SubmapCollection {
   // The submap to go on with where the active one ends; none if there is none.
   std::optional<uint32_t> submapAbout(const Eigen::Vector3d& p_W) const;
 
-  void moveWindow();
-  // Puts blocks into the store, and takes them out of the pool; false if the store cannot take them.
-  bool evict(const std::vector<int>& slots);
+  // Moves the window if the view leaves it; returns whether it did.
+  bool moveWindow();
+  // Of what the window will leave if it goes on as it moved last, evicts a little that is not in view, so
+  // that no frame has to wait for all of it.
+  void evictAhead();
+  // The slots in use of blocks that are not in the window.
+  GroupSlots slotsOutside(const Window& window) const;
+  // Puts blocks into the store, and takes them out of the pool; false if the store cannot take all of them.
+  bool evict(std::vector<int> slots);
   void store(const BlockIndex& group, BlockGroups blocks);
   // Evicts blocks that are not in view, the farthest first, until so many slots are free.
   void makeRoom(size_t slots);
@@ -141,6 +149,7 @@ class SubmapCollection {
   uint32_t active_ = 0;
   std::map<BlockIndex, uint32_t, BlockOrder> absent_;  // with the submaps that have them
   BlockSet ahead_;                                     // of these, those that are read ahead
+  GroupSlots leaving_;                                 // are soon evicted
   std::unique_ptr<ViewVolume> view_;                   // of the last show()
   std::optional<Eigen::Vector3d> sensor_W_;
   double way_m_ = 0.0;     // of the sensor, but where its poses are given

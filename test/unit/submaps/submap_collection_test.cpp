@@ -4,8 +4,12 @@
 
 #include <map>
 #include <random>
+#include <set>
+#include <string>
+#include <thread>
 
 #include "depth_fusion/submaps/map_file.h"
+#include "support/postgres_server.h"
 #include "support/submap_walk.h"
 #include "support/temporary_folder.h"
 #include "support/test_compute.h"
@@ -43,6 +47,44 @@ TEST_P(AnyWindow, ALongWayComesBackBitForBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Windows, AnyWindow, testing::Values(28, 32, 35));
+
+// Most of what the window leaves is in the store before it moves.
+TEST(SubmapCollection, WhatTheWindowWillLeaveIsStoredAhead) {
+  Walk walk(windowOf(32), smallMemory());
+  size_t ahead = 0, with_moves = 0;
+  for (double x = 0.0; x < 12.0; x += 0.02) {
+    const BlockIndex origin = walk.map().window().origin;
+    const size_t before = walk.submaps().usage().blocks_put;
+    walk.goTo(x);
+    const bool has_moved = walk.map().window().origin != origin;
+    (has_moved ? with_moves : ahead) += walk.submaps().usage().blocks_put - before;
+  }
+  EXPECT_GT(ahead, 4 * with_moves);
+}
+
+// A part of a group that cannot be read back keeps the group's other part in the pool, and nothing is lost.
+TEST(SubmapCollection, NothingIsLostWhileTheStoreCannotBeRead) {
+  if (PostgresServer::programs().empty()) GTEST_SKIP() << "no PostgreSQL server here";
+  PostgresServer server;
+  SubmapParameters parameters = smallMemory();
+  parameters.store = server.uri("scratch");
+  Walk walk(windowOf(35), parameters);
+  for (double x = 0.0; x < 60.0; x += 0.05) walk.goTo(x);
+  ASSERT_GT(walk.submaps().usage().groups_on_disk, 0u);
+  server.stop();
+  std::set<std::string> problems;
+  for (double x = 60.0; x > 0.0; x -= 0.05) {
+    walk.look(x, true);
+    problems.insert(walk.submaps().problem());
+  }
+  for (double x = 0.0; x < 30.0; x += 0.05) walk.look(x);
+  EXPECT_GT(problems.size(), 1u);
+  server.start();
+  for (int i = 0; i < 600 && !walk.submaps().usage().problem.empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  walk.look(30.0);
+  walk.expectAll();
+}
 
 TEST(SubmapCollection, LapsTakeTheMemoryOfOne) {
   Walk walk(windowOf(32), smallMemory());
