@@ -27,7 +27,7 @@ DEBIAN_PACKAGES=(
   libstd-srvs-dev libros-rosgraph-msgs-dev
   python3-std-srvs python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs
   librostest-dev python3-rostest python3-roslaunch python3-rosbag python3-rosservice python3-rostopic rosbash rosout rospack-tools rviz
-  libeigen3-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev
+  libeigen3-dev libceres-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev
   ocl-icd-opencl-dev opencl-headers libbenchmark-dev
 )
 

@@ -3,6 +3,7 @@
 #include "apps/benchmark/filters.h"
 #include "apps/benchmark/growth.h"
 #include "apps/benchmark/long_walk.h"
+#include "apps/benchmark/loops.h"
 #include "apps/benchmark/resolution.h"
 #include "apps/benchmark/suite.h"
 #include "apps/benchmark/tracking.h"
@@ -22,6 +23,8 @@ int main(int argc, char** argv) {
   depth_fusion::addGrowthBenchmark(app, growth);
   depth_fusion::LongWalkOptions long_walk;
   depth_fusion::addLongWalkBenchmark(app, long_walk);
+  depth_fusion::LoopsOptions loops;
+  depth_fusion::addLoopsBenchmark(app, loops);
   depth_fusion::TrackingBenchmark suite;
   depth_fusion::addBenchmarkSuite(app, suite);
   return depth_fusion::runApp(app, [&] {

@@ -59,7 +59,10 @@ void Relocaliser::add(const FrameFeatures& features, const Pose& T_W_D) {
   for (const KeyframePtr& keyframe : keyframes_) {
     if (separation(keyframe->T_W_D, T_W_D, parameters_) < 1.0) return;
   }
-  Keyframe keyframe{features, thumbnailOf(features), T_W_D};
+  Keyframe keyframe;
+  keyframe.features = features;
+  keyframe.thumbnail = thumbnailOf(features);
+  keyframe.T_W_D = T_W_D;
   keyframe.features.smoothed_levels.clear();
   keyframes_.push_back(std::make_shared<const Keyframe>(std::move(keyframe)));
   dropSurplus();

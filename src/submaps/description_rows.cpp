@@ -8,8 +8,9 @@
 namespace depth_fusion {
 namespace {
 
-// Changes with what is in any of a map's rows. A map of another version is not read.
-constexpr uint32_t kVersion = 2;
+// Changes with what is in any of a map's rows. Format 3 has what loops are closed by in keyframes' rows.
+constexpr uint32_t kVersion = 3;
+constexpr uint32_t kOldestVersion = 2;  // that is read
 constexpr char kMagic[] = "depth_fusion map";
 
 void writeTexts(ByteWriter& bytes, const std::vector<std::string>& texts) {
@@ -24,9 +25,10 @@ std::vector<std::string> readTexts(ByteReader& bytes) {
 }
 
 void checkVersion(uint32_t version, const std::string& software, const std::string& where) {
-  check(version == kVersion, where + " is of format " + std::to_string(version) + ", written by " + software +
-                                 "; this program reads format " + std::to_string(kVersion) +
-                                 (version > kVersion ? "; take a newer one" : ""));
+  check(version >= kOldestVersion && version <= kVersion,
+        where + " is of format " + std::to_string(version) + ", written by " + software +
+            "; this program reads formats " + std::to_string(kOldestVersion) + " to " +
+            std::to_string(kVersion) + (version > kVersion ? "; take a newer one" : ""));
 }
 
 }  // namespace

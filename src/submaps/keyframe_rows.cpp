@@ -1,6 +1,8 @@
 #include "submaps/keyframe_rows.h"
 
+#include <cmath>
 #include <cstring>
+#include <utility>
 #include <variant>
 
 #include "store/packed_row.h"
@@ -60,6 +62,25 @@ cv::Mat readThumbnail(ByteReader& bytes) {
   return thumbnail;
 }
 
+void writeLoopPart(ByteWriter& bytes, const Keyframe& keyframe) {
+  bytes.number(keyframe.submap);
+  bytes.number(keyframe.stamp_s);
+  bytes.number(keyframe.way_m);
+  bytes.text(keyframe.view.packed());
+  if (!keyframe.view.isEmpty()) write(bytes, keyframe.view.camera());
+}
+
+// Rows of format 2 end before it.
+void readLoopPart(ByteReader& bytes, Keyframe& keyframe) {
+  keyframe.submap = bytes.number<uint32_t>();
+  keyframe.stamp_s = bytes.number<double>();
+  keyframe.way_m = bytes.number<double>();
+  check(std::isfinite(keyframe.stamp_s) && std::isfinite(keyframe.way_m),
+        bytes.where() + " has a time or a way that is none");
+  std::string view = bytes.text();
+  if (!view.empty()) keyframe.view = KeyframeView(readCamera(bytes), std::move(view), bytes.where());
+}
+
 }  // namespace
 
 std::string keyframeRow(const Keyframe& keyframe) {
@@ -74,6 +95,7 @@ std::string keyframeRow(const Keyframe& keyframe) {
   bytes.bytes(keyframe.thumbnail.data, keyframe.thumbnail.total() * sizeof(float));
   bytes.number(static_cast<uint32_t>(features.features.size()));
   for (const Feature& feature : features.features) write(bytes, feature);
+  writeLoopPart(bytes, keyframe);
   return packed(bytes.take());
 }
 
@@ -88,6 +110,7 @@ Keyframe parseKeyframe(const std::string& row, const std::string& where) {
   keyframe.thumbnail = readThumbnail(bytes);
   for (size_t i = readCount(bytes, kFeatureBytes); i > 0; --i)
     keyframe.features.features.push_back(readFeature(bytes));
+  if (bytes.left() > 0) readLoopPart(bytes, keyframe);
   checkAtEnd(bytes);
   return keyframe;
 }

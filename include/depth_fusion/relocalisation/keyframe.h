@@ -1,11 +1,13 @@
 // A frame of the past that a new one can be matched to.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <vector>
 
 #include "depth_fusion/frames/frame_features.h"
+#include "depth_fusion/relocalisation/keyframe_view.h"
 
 namespace depth_fusion {
 
@@ -18,6 +20,12 @@ struct Keyframe {
   FrameFeatures features;  // without the smoothed images
   cv::Mat thumbnail;       // CV_32FC1, zero mean, unit norm
   Pose T_W_D = Pose::Identity();
+
+  // What loops are closed by; a keyframe of the relocaliser alone has none of it.
+  KeyframeView view;     // the map as the depth camera saw it then
+  uint32_t submap = 0;   // that was active
+  double stamp_s = 0.0;  // of the frame
+  double way_m = 0.0;    // that the sensor had gone
 };
 
 // A keyframe does not change, so that all who need it share it.

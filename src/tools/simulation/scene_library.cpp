@@ -48,6 +48,8 @@ const std::vector<SceneEntry>& sceneLibrary() {
        makeBuildingScene},
       {"corridor", "a corridor of 100 m between two lobbies, walked there and back", makeCorridorScene},
       {"white_corridor", "the corridor in one plain colour, without light and shade", makeWhiteCorridorScene},
+      {"repeated_corridor", "a corridor of 90 m that is exactly the same every 3 m, walked along for 140 s",
+       makeRepeatedCorridorScene},
       {"alike", "a room of 8 x 6 m whose lamps, shelves and tiles are the same again and again",
        makeAlikeScene},
       {"person", "the room, and from 1 to 4 s somebody before the camera, wherever it looks",

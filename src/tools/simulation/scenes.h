@@ -15,6 +15,7 @@ SimulatedScene makeCylinderScene();
 SimulatedScene makeBuildingScene();
 SimulatedScene makeCorridorScene();
 SimulatedScene makeWhiteCorridorScene();
+SimulatedScene makeRepeatedCorridorScene();
 SimulatedScene makeAlikeScene();
 SimulatedScene makeLargeRoomScene();
 SimulatedScene makePersonScene();

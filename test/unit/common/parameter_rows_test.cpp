@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "depth_fusion/acquisition/device_parameters.h"
+#include "depth_fusion/loops/loop_parameters.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 
 namespace depth_fusion {
@@ -38,6 +39,7 @@ TEST(ParameterRows, EveryMemberOfAStageHasOne) {
   expectRows<TextureOdometryParameters>();
   expectRows<IcpTrackingParameters>();
   expectRows<RelocalisationParameters>();
+  expectRows<LoopParameters>();
   expectRows<TsdfFusionParameters>();
   expectRows<ColorFusionParameters>();
   expectRows<ModelViewParameters>();

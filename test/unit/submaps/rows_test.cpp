@@ -64,7 +64,11 @@ TEST(Rows, AnotherVersionIsRefusedByName) {
   const size_t version_at = sizeof(uint32_t) + std::string("depth_fusion map").size();
   ++contents[version_at];
   expectError([&] { parseDescription(packed(contents), "kitchen.map"); },
-              {"kitchen.map", "format 2", "depth_fusion of a test", "take a newer one"});
+              {"kitchen.map", "format 4", "depth_fusion of a test", "take a newer one"});
+  contents[version_at] = 1;
+  expectError([&] { parseDescription(packed(contents), "kitchen.map"); }, {"kitchen.map", "format 1"});
+  contents[version_at] = 2;
+  EXPECT_NO_THROW(parseDescription(packed(contents), "kitchen.map")) << "the format of before is read";
   expectError([&] { parseDescription(packed("something else"), "kitchen.map"); }, {"kitchen.map"});
 }
 
@@ -155,6 +159,30 @@ TEST(Rows, AKeyframeComesBack) {
     EXPECT_EQ(a.patch, b.patch);
     EXPECT_EQ(a.surface_C, b.surface_C);
   }
+}
+
+TEST(Rows, WhatLoopsAreClosedByComesBack) {
+  Keyframe before = someKeyframe();
+  before.view =
+      KeyframeView(cv::Mat(24, 32, CV_32FC1, cv::Scalar(1.5)), {32, 24, 26.0, 26.0, 15.5, 11.5}, 32);
+  before.submap = 3;
+  before.stamp_s = 12.5;
+  before.way_m = 77.25;
+  const Keyframe after = parseKeyframe(keyframeRow(before), "row");
+  EXPECT_EQ(after.view.packed(), before.view.packed());
+  EXPECT_TRUE(sameCamera(after.view.camera(), before.view.camera()));
+  EXPECT_EQ(after.submap, 3u);
+  EXPECT_EQ(after.stamp_s, 12.5);
+  EXPECT_EQ(after.way_m, 77.25);
+}
+
+TEST(Rows, AKeyframeOfTheFormatBeforeIsRead) {
+  const std::string contents = unpacked(keyframeRow(someKeyframe()), "row");
+  constexpr size_t kLoopPartBytes = 4 + 8 + 8 + 4;  // submap, stamp, way, an empty view
+  const Keyframe after = parseKeyframe(packed(contents.substr(0, contents.size() - kLoopPartBytes)), "row");
+  EXPECT_EQ(after.features.features.size(), 10u);
+  EXPECT_TRUE(after.view.isEmpty());
+  expectError([&] { parseKeyframe(packed(contents.substr(0, contents.size() - 3)), "row 5"); }, {"row 5"});
 }
 
 TEST(Rows, AKeyframeThatCannotBeIsRefused) {

@@ -1,0 +1,80 @@
+// How keyframes lie in W: chained by the sensor's way, and held together by loops.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "depth_fusion/geometry/pose.h"
+#include "depth_fusion/loops/loop_parameters.h"
+
+namespace depth_fusion {
+
+struct GraphEdge {
+  uint32_t from = 0, to = 0;
+  Pose T_from_to = Pose::Identity();
+  Matrix6d covariance = Matrix6d::Identity();  // of the twist on the left
+  double way_m = 0.0;                          // that the sensor went from one to the other; a loop has none
+  bool is_loop = false;
+  bool is_undone = false;  // others contradict the loop; it counts no more
+};
+
+// What solve() did.
+struct GraphChange {
+  std::vector<size_t> undone;                           // edges
+  double largest_move_m = 0.0, largest_turn_rad = 0.0;  // of a node
+  int iterations = 0;
+};
+
+// A least-squares problem over SE(3) in units of standard deviations (Lu and Milios 1997), solved by Ceres
+// with analytic derivatives and a sparse Cholesky factorisation. Where a loop is contradicted, those that
+// hold are found by graduated non-convexity with Geman and McClure's kernel (Yang et al. 2020).
+class PoseGraph {
+ public:
+  explicit PoseGraph(const LoopParameters& parameters);
+
+  // Nodes are numbered from 0 on. `down_D`: the measured direction of gravity, W's being along `down_W`.
+  uint32_t addNode(const Pose& T_W_D, const std::optional<Eigen::Vector3d>& down_D = std::nullopt);
+  void setDown(const Eigen::Vector3d& down_W) { down_W_ = down_W.normalized(); }
+  // The sensor went from one node to the other; the covariance is that of its drift on this way, and what the
+  // tracker's own adds to it.
+  void addWay(uint32_t from, uint32_t to, const Pose& T_from_to, double way_m,
+              const Matrix6d& covariance = Matrix6d::Zero());
+  // Returns the edge's index. Two parts of the graph that nothing held together before are moved together:
+  // the one with the lowest node stays.
+  size_t addLoop(uint32_t from, uint32_t to, const Pose& T_from_to, const Matrix6d& covariance);
+
+  // Finds the poses that fit all edges best, and undoes the loops that contradict the others. The lowest node
+  // of each part stays.
+  GraphChange solve();
+
+  size_t size() const { return nodes_.size(); }
+  const Pose& pose(uint32_t node) const { return nodes_[node].T_W_D; }
+  const std::vector<GraphEdge>& edges() const { return edges_; }
+  // The edges that meet in a node, those that are undone among them.
+  const std::vector<uint32_t>& edgesOf(uint32_t node) const { return nodes_[node].edges; }
+  // How far a loop is from the poses, in standard deviations.
+  double sigmasOf(size_t edge) const;
+  size_t bytes() const;
+
+ private:
+  struct Node {
+    Pose T_W_D = Pose::Identity();
+    std::optional<Eigen::Vector3d> down_D;
+    std::vector<uint32_t> edges;
+  };
+
+  // For each node the lowest of its part.
+  std::vector<uint32_t> parts() const;
+  void addEdge(GraphEdge edge);
+
+  LoopParameters parameters_;
+  Eigen::Vector3d down_W_ = Eigen::Vector3d::UnitY();
+  std::vector<Node> nodes_;
+  std::vector<GraphEdge> edges_;
+};
+
+// The covariance of the drift on the way (of the twist on the left of T_from_to).
+Matrix6d driftCovariance(const Pose& T_from_to, double way_m, const LoopParameters& parameters);
+
+}  // namespace depth_fusion

@@ -1,0 +1,222 @@
+#include "depth_fusion/loops/loop_closer.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "depth_fusion/common/error.h"
+#include "loops/graph_way.h"
+
+namespace depth_fusion {
+namespace {
+
+// So many times as many as are compared are looked up: some are out of reach, or beside better ones.
+constexpr size_t kLookedUp = 12;
+
+class Stopwatch {
+ public:
+  double ms() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+double largestSigma(const Eigen::Matrix3d& covariance) {
+  return std::sqrt(
+      std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues().maxCoeff()));
+}
+
+// Of the difference between two motions, in standard deviations of both.
+double sigmasBetween(const Pose& T_a_b, const Pose& other_T_a_b, const Matrix6d& covariance) {
+  const Vector6d twist = twistFromPose(T_a_b * other_T_a_b.inverse());
+  return std::sqrt(std::max(0.0, twist.dot(covariance.ldlt().solve(twist))));
+}
+
+}  // namespace
+
+LoopCloser::LoopCloser(const LoopParameters& parameters, LoadKeyframe load)
+    : parameters_(parameters),
+      load_(std::move(load)),
+      finder_(parameters.index_features),
+      verifier_(parameters),
+      verdicts_(parameters),
+      graph_(parameters) {}
+
+KeyframePtr LoopCloser::keyframe(uint32_t number) const {
+  return load_ ? load_(number) : known_[number].keyframe;
+}
+
+LoopReport LoopCloser::add(KeyframePtr keyframe, const std::optional<KeyframeMotion>& motion,
+                           const std::optional<Eigen::Vector3d>& down_D) {
+  check(keyframe != nullptr, "a keyframe is missing");
+  check(!motion || !known_.empty(), "the first keyframe has none before it");
+  check(known_.empty() || keyframe->way_m >= known_.back().way_m,
+        "a keyframe comes from farther back on the way than the one before");
+  const Keyframe& added = *keyframe;
+  LoopReport report;
+  const Pose T_W_D = motion
+                         ? graph_.pose(static_cast<uint32_t>(graph_.size() - 1)) * motion->T_previous_current
+                         : added.T_W_D;
+  report.number = graph_.addNode(T_W_D, down_D);
+  if (motion) {
+    const double way_m = std::max(0.0, added.way_m - known_.back().way_m);
+    graph_.addWay(report.number - 1, report.number, motion->T_previous_current, way_m, motion->covariance);
+  }
+  known_.push_back({load_ ? nullptr : keyframe, added.way_m, added.T_W_D});
+  if (!added.features.reason.empty()) return report;
+
+  const Stopwatch finding;
+  const GraphWays ways(graph_, report.number);
+  report.candidates = find(added, report.number, ways);
+  finder_.add(report.number, added.features);
+  report.find_ms = finding.ms();
+
+  const Stopwatch verifying;
+  const std::vector<size_t> fitting = judge(added, ways, report.candidates);
+  const bool ambiguous = areAmbiguous(report.candidates, fitting);
+  std::vector<LoopCandidate> confirmed;
+  for (const size_t i : fitting) {
+    LoopCandidate& loop = report.candidates[i];
+    if (ambiguous) {
+      loop.verdict = LoopVerdict::kAmbiguous;
+      continue;
+    }
+    // Where nothing is known of how they lie, drift says nothing, and more have to.
+    const int needed = parameters_.agreeing_loops * (ways.way_m(loop.old_keyframe) ? 1 : 2);
+    for (LoopCandidate& other : verdicts_.offer(loop, added.way_m, graph_, needed)) {
+      if (other.new_keyframe == loop.new_keyframe && other.old_keyframe == loop.old_keyframe)
+        loop.verdict = LoopVerdict::kClosed;
+      else
+        report.candidates.push_back(other);
+      confirmed.push_back(std::move(other));
+    }
+  }
+  report.verify_ms = verifying.ms();
+  if (!confirmed.empty()) close(confirmed, report);
+  return report;
+}
+
+std::vector<LoopCandidate> LoopCloser::find(const Keyframe& keyframe, uint32_t number,
+                                            const GraphWays& ways) const {
+  const auto isEligible = [&](uint32_t other) {
+    const std::optional<double> way_m = ways.way_m(other);
+    return !way_m || *way_m >= parameters_.min_way_m;
+  };
+  const size_t count = kLookedUp * static_cast<size_t>(parameters_.max_candidates);
+  std::vector<LoopCandidate> candidates;
+  for (const AlikeKeyframe& alike : finder_.find(keyframe.features, isEligible, count)) {
+    const bool is_beside =
+        std::any_of(candidates.begin(), candidates.end(), [&](const LoopCandidate& better) {
+          return std::abs(known_[better.old_keyframe].way_m - known_[alike.number].way_m) <
+                 parameters_.candidate_spacing_m;
+        });
+    if (is_beside) continue;
+    LoopCandidate loop;
+    loop.old_keyframe = alike.number;
+    loop.new_keyframe = number;
+    loop.likeness = alike.likeness;
+    candidates.push_back(loop);
+  }
+  return candidates;
+}
+
+std::vector<size_t> LoopCloser::judge(const Keyframe& added, const GraphWays& ways,
+                                      std::vector<LoopCandidate>& candidates) const {
+  std::vector<size_t> fitting;
+  int compared = 0;
+  size_t judged = 0;
+  for (; judged < candidates.size() && compared < parameters_.max_candidates; ++judged) {
+    LoopCandidate& loop = candidates[judged];
+    if (!isInReach(ways, loop)) continue;
+    ++compared;
+    const KeyframePtr old_keyframe = keyframe(loop.old_keyframe);
+    if (old_keyframe == nullptr) {
+      loop.verdict = LoopVerdict::kNoView;
+      continue;
+    }
+    if (verifier_.verify(*old_keyframe, added, loop) && isWithinDrift(ways, loop)) fitting.push_back(judged);
+  }
+  candidates.resize(judged);
+  return fitting;
+}
+
+bool LoopCloser::isInReach(const GraphWays& ways, LoopCandidate& loop) const {
+  const std::optional<GraphRelation> relation = ways.relationFrom(loop.old_keyframe);
+  if (!relation) return true;
+  loop.apart_m = relation->T_a_b.translation().norm();
+  loop.way_m = relation->way_m;
+  const Matrix6d to_new = adjoint(relation->T_a_b.inverse());
+  const Matrix6d about_new = to_new * relation->covariance * to_new.transpose();
+  const double sigma_m = largestSigma(about_new.bottomRightCorner<3, 3>());
+  if (loop.apart_m <= parameters_.reach_m + parameters_.max_drift_sigmas * sigma_m) return true;
+  loop.verdict = LoopVerdict::kOutOfReach;
+  return false;
+}
+
+bool LoopCloser::isWithinDrift(const GraphWays& ways, LoopCandidate& loop) const {
+  const std::optional<GraphRelation> relation = ways.relationFrom(loop.old_keyframe);
+  if (!relation) return true;
+  loop.drift_sigmas = sigmasBetween(loop.T_old_new, relation->T_a_b, relation->covariance + loop.covariance);
+  if (loop.drift_sigmas <= parameters_.max_drift_sigmas) return true;
+  loop.verdict = LoopVerdict::kBeyondDrift;
+  return false;
+}
+
+bool LoopCloser::areAmbiguous(const std::vector<LoopCandidate>& candidates,
+                              const std::vector<size_t>& fitting) const {
+  for (size_t i = 1; i < fitting.size(); ++i) {
+    const LoopCandidate& a = candidates[fitting.front()];
+    const LoopCandidate& b = candidates[fitting[i]];
+    const std::optional<GraphRelation> relation =
+        GraphWays(graph_, b.old_keyframe).relationFrom(a.old_keyframe);
+    if (!relation) continue;
+    const Pose T_old_old = a.T_old_new * b.T_old_new.inverse();
+    const Matrix6d to_a = adjoint(T_old_old);
+    const Matrix6d covariance = relation->covariance + a.covariance + to_a * b.covariance * to_a.transpose();
+    if (sigmasBetween(T_old_old, relation->T_a_b, covariance) > parameters_.max_drift_sigmas) return true;
+  }
+  return false;
+}
+
+void LoopCloser::close(const std::vector<LoopCandidate>& confirmed, LoopReport& report) {
+  const Stopwatch solving;
+  for (const LoopCandidate& loop : confirmed)
+    closed_.emplace_back(
+        graph_.addLoop(loop.old_keyframe, loop.new_keyframe, loop.T_old_new, loop.covariance), loop);
+  report.change = graph_.solve();
+  report.poses_changed = true;
+  for (const size_t edge : report.change.undone) {
+    const auto loop = std::find_if(closed_.begin(), closed_.end(),
+                                   [&](const auto& closed) { return closed.first == edge; });
+    loop->second.verdict = LoopVerdict::kUndone;
+    const auto isSame = [&](const LoopCandidate& other) {
+      return other.new_keyframe == loop->second.new_keyframe &&
+             other.old_keyframe == loop->second.old_keyframe;
+    };
+    const auto own = std::find_if(report.candidates.begin(), report.candidates.end(), isSame);
+    if (own != report.candidates.end())
+      own->verdict = LoopVerdict::kUndone;
+    else
+      report.candidates.push_back(loop->second);
+  }
+  report.solve_ms = solving.ms();
+}
+
+Corrections LoopCloser::corrections() const {
+  std::vector<CorrectedKeyframe> keyframes;
+  for (uint32_t number = 0; number < known_.size(); ++number)
+    keyframes.push_back({known_[number].way_m, known_[number].T_W_then, graph_.pose(number)});
+  return Corrections(std::move(keyframes));
+}
+
+size_t LoopCloser::bytes() const {
+  return finder_.bytes() + graph_.bytes() + known_.capacity() * sizeof(Known) +
+         closed_.capacity() * sizeof(closed_.front());
+}
+
+}  // namespace depth_fusion

@@ -1,0 +1,132 @@
+#include "depth_fusion/loops/pose_graph.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "depth_fusion/common/error.h"
+#include "loops/graph_solver.h"
+
+namespace depth_fusion {
+namespace {
+
+uint32_t rootOf(std::vector<uint32_t>& parents, uint32_t node) {
+  while (parents[node] != node) node = parents[node] = parents[parents[node]];
+  return node;
+}
+
+}  // namespace
+
+Matrix6d driftCovariance(const Pose& T_from_to, double way_m, const LoopParameters& parameters) {
+  constexpr double kTremor_m = 0.001, kTremor_rad = 0.0005;  // of every pose
+  const double way = way_m * parameters.correlated_way_m;
+  const double turn = rotationAngle(T_from_to) * parameters.correlated_way_m;
+  const auto variance = [&](double per_m, double per_rad, double tremor) {
+    return per_m * per_m * way + per_rad * per_rad * turn + tremor * tremor;
+  };
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(
+      variance(parameters.drift_rad_per_m, parameters.drift_rad_per_rad, kTremor_rad)),
+      Eigen::Vector3d::Constant(variance(parameters.drift_m_per_m, parameters.drift_m_per_rad, kTremor_m));
+  const Matrix6d to_from = adjoint(T_from_to);
+  const Matrix6d about_to = variances.asDiagonal();
+  return to_from * about_to * to_from.transpose();
+}
+
+PoseGraph::PoseGraph(const LoopParameters& parameters) : parameters_(parameters) {
+  validate(parameters_.table());
+}
+
+uint32_t PoseGraph::addNode(const Pose& T_W_D, const std::optional<Eigen::Vector3d>& down_D) {
+  Node node;
+  node.T_W_D = orthonormalized(T_W_D);
+  if (down_D) node.down_D = down_D->normalized();
+  nodes_.push_back(std::move(node));
+  return static_cast<uint32_t>(nodes_.size() - 1);
+}
+
+void PoseGraph::addEdge(GraphEdge edge) {
+  check(edge.from < nodes_.size() && edge.to < nodes_.size() && edge.from != edge.to,
+        "an edge of the pose graph has no two nodes");
+  for (const uint32_t node : {edge.from, edge.to})
+    nodes_[node].edges.push_back(static_cast<uint32_t>(edges_.size()));
+  edges_.push_back(std::move(edge));
+}
+
+void PoseGraph::addWay(uint32_t from, uint32_t to, const Pose& T_from_to, double way_m,
+                       const Matrix6d& covariance) {
+  addEdge({from, to, orthonormalized(T_from_to), driftCovariance(T_from_to, way_m, parameters_) + covariance,
+           way_m});
+}
+
+size_t PoseGraph::addLoop(uint32_t from, uint32_t to, const Pose& T_from_to, const Matrix6d& covariance) {
+  const std::vector<uint32_t> part = parts();
+  addEdge({from, to, orthonormalized(T_from_to), covariance, 0.0, true});
+  if (part[from] != part[to]) {
+    const bool to_moves = part[from] < part[to];
+    const Pose T_W_to = pose(from) * T_from_to, T_W_from = pose(to) * T_from_to.inverse();
+    const Pose motion = to_moves ? T_W_to * pose(to).inverse() : T_W_from * pose(from).inverse();
+    for (uint32_t node = 0; node < nodes_.size(); ++node) {
+      if (part[node] == (to_moves ? part[to] : part[from]))
+        nodes_[node].T_W_D = orthonormalized(motion * nodes_[node].T_W_D);
+    }
+  }
+  return edges_.size() - 1;
+}
+
+std::vector<uint32_t> PoseGraph::parts() const {
+  std::vector<uint32_t> parents(nodes_.size());
+  std::iota(parents.begin(), parents.end(), 0u);
+  for (const GraphEdge& edge : edges_) {
+    if (edge.is_undone) continue;
+    const uint32_t a = rootOf(parents, edge.from), b = rootOf(parents, edge.to);
+    parents[std::max(a, b)] = std::min(a, b);
+  }
+  for (uint32_t node = 0; node < nodes_.size(); ++node) parents[node] = rootOf(parents, node);
+  return parents;
+}
+
+double PoseGraph::sigmasOf(size_t edge) const {
+  const GraphEdge& loop = edges_[edge];
+  const Vector6d twist = twistFromPose(pose(loop.from).inverse() * pose(loop.to) * loop.T_from_to.inverse());
+  return std::sqrt(std::max(0.0, twist.dot(loop.covariance.ldlt().solve(twist))));
+}
+
+GraphChange PoseGraph::solve() {
+  GraphChange change;
+  std::vector<Pose> before;
+  for (const Node& node : nodes_) before.push_back(node.T_W_D);
+  for (bool has_contradiction = true; has_contradiction;) {
+    GraphSolver solver(before, edges_, parts());
+    for (size_t i = 0; i < nodes_.size(); ++i) {
+      if (nodes_[i].down_D) solver.addGravity(i, *nodes_[i].down_D, down_W_, parameters_.gravity_sigma_rad);
+    }
+    change.iterations += solver.solve();
+    std::vector<size_t> contradicted = solver.contradicted(parameters_.max_edge_sigmas);
+    has_contradiction = !contradicted.empty();
+    if (has_contradiction) change.iterations += solver.solveRobustly(parameters_.max_edge_sigmas);
+    for (size_t i = 0; i < nodes_.size(); ++i) nodes_[i].T_W_D = solver.pose(i);
+    if (!has_contradiction) break;
+    contradicted = solver.contradicted(parameters_.max_edge_sigmas);
+    has_contradiction = !contradicted.empty();
+    for (const size_t edge : contradicted) {
+      edges_[edge].is_undone = true;
+      change.undone.push_back(edge);
+    }
+  }
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const Pose motion = before[i].inverse() * nodes_[i].T_W_D;
+    change.largest_move_m = std::max(change.largest_move_m, motion.translation().norm());
+    change.largest_turn_rad = std::max(change.largest_turn_rad, rotationAngle(motion));
+  }
+  return change;
+}
+
+size_t PoseGraph::bytes() const {
+  size_t bytes = nodes_.capacity() * sizeof(Node) + edges_.capacity() * sizeof(GraphEdge);
+  for (const Node& node : nodes_) bytes += node.edges.capacity() * sizeof(uint32_t);
+  return bytes;
+}
+
+}  // namespace depth_fusion
