@@ -1,5 +1,6 @@
 #include "loops/feature_alignment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <vector>

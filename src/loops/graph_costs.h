@@ -17,8 +17,7 @@ class EdgeCost : public ceres::SizedCostFunction<6, 6, 6> {
  public:
   EdgeCost(const GraphEdge& edge, const Pose& T_W_from, const Pose& T_W_to);
 
-  // The factor of the residual.
-  double weight() const { return weight_; }
+  // The factor of the residual; 0: the edge does not count.
   void setWeight(double weight) { weight_ = weight; }
 
   bool Evaluate(double const* const* twists, double* residual, double** jacobians) const override;

@@ -14,17 +14,18 @@ class GraphSolver {
   GraphSolver(const std::vector<Pose>& poses, const std::vector<GraphEdge>& edges,
               const std::vector<uint32_t>& parts);
   ~GraphSolver();
+  GraphSolver(GraphSolver&& other) noexcept;
 
   void addGravity(size_t node, const Eigen::Vector3d& down_D, const Eigen::Vector3d& down_W,
                   double sigma_rad);
 
-  // Return the number of iterations. The second trusts no loop that the others contradict by more.
+  // Returns the number of iterations.
   int solve();
-  int solveRobustly(double max_sigmas);
-
   Pose pose(size_t node) const;
-  // The loops that are so far from the poses.
-  std::vector<size_t> contradicted(double max_sigmas) const;
+  // The sum of the squares of all residuals, in standard deviations.
+  double strain() const;
+  // What it would be if a closure did not count; the poses stay as they are.
+  double strainWithout(uint32_t closure);
 
  private:
   struct Problem;

@@ -37,6 +37,10 @@ double sigmasBetween(const Pose& T_a_b, const Pose& other_T_a_b, const Matrix6d&
   return std::sqrt(std::max(0.0, twist.dot(covariance.ldlt().solve(twist))));
 }
 
+bool isSameLoop(const LoopCandidate& a, const LoopCandidate& b) {
+  return a.old_keyframe == b.old_keyframe && a.new_keyframe == b.new_keyframe;
+}
+
 }  // namespace
 
 LoopCloser::LoopCloser(const LoopParameters& parameters, LoadKeyframe load)
@@ -89,7 +93,7 @@ LoopReport LoopCloser::add(KeyframePtr keyframe, const std::optional<KeyframeMot
     // Where nothing is known of how they lie, drift says nothing, and more have to.
     const int needed = parameters_.agreeing_loops * (ways.way_m(loop.old_keyframe) ? 1 : 2);
     for (LoopCandidate& other : verdicts_.offer(loop, added.way_m, graph_, needed)) {
-      if (other.new_keyframe == loop.new_keyframe && other.old_keyframe == loop.old_keyframe)
+      if (isSameLoop(other, loop))
         loop.verdict = LoopVerdict::kClosed;
       else
         report.candidates.push_back(other);
@@ -185,26 +189,28 @@ bool LoopCloser::areAmbiguous(const std::vector<LoopCandidate>& candidates,
 
 void LoopCloser::close(const std::vector<LoopCandidate>& confirmed, LoopReport& report) {
   const Stopwatch solving;
-  for (const LoopCandidate& loop : confirmed)
-    closed_.emplace_back(
-        graph_.addLoop(loop.old_keyframe, loop.new_keyframe, loop.T_old_new, loop.covariance), loop);
+  for (const LoopCandidate& loop : confirmed) {
+    graph_.addLoop(loop.old_keyframe, loop.new_keyframe, loop.T_old_new, loop.covariance, loop.closure);
+    closed_.push_back(loop);
+  }
   report.change = graph_.solve();
   report.poses_changed = true;
-  for (const size_t edge : report.change.undone) {
-    const auto loop = std::find_if(closed_.begin(), closed_.end(),
-                                   [&](const auto& closed) { return closed.first == edge; });
-    loop->second.verdict = LoopVerdict::kUndone;
-    const auto isSame = [&](const LoopCandidate& other) {
-      return other.new_keyframe == loop->second.new_keyframe &&
-             other.old_keyframe == loop->second.old_keyframe;
-    };
-    const auto own = std::find_if(report.candidates.begin(), report.candidates.end(), isSame);
-    if (own != report.candidates.end())
-      own->verdict = LoopVerdict::kUndone;
-    else
-      report.candidates.push_back(loop->second);
-  }
+  for (const uint32_t closure : report.change.undone) setVerdict(closure, LoopVerdict::kUndone, report);
+  for (const uint32_t closure : report.change.restored) setVerdict(closure, LoopVerdict::kClosed, report);
   report.solve_ms = solving.ms();
+}
+
+void LoopCloser::setVerdict(uint32_t closure, LoopVerdict verdict, LoopReport& report) {
+  for (LoopCandidate& loop : closed_) {
+    if (loop.closure != closure) continue;
+    loop.verdict = verdict;
+    const auto said = std::find_if(report.candidates.begin(), report.candidates.end(),
+                                   [&](const LoopCandidate& other) { return isSameLoop(loop, other); });
+    if (said != report.candidates.end())
+      said->verdict = verdict;
+    else
+      report.candidates.push_back(loop);
+  }
 }
 
 Corrections LoopCloser::corrections() const {

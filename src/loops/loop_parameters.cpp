@@ -50,8 +50,8 @@ ParameterTable LoopParameters::table() {
       number("loop_sigma_m", &loop_sigma_m, 0.0001, 1.0,
              "standard deviation of a closed loop's position, beside that of its fit"),
       number("loop_sigma_rad", &loop_sigma_rad, 0.0001, 1.0, "the same of its orientation"),
-      number("max_edge_sigmas", &max_edge_sigmas, 0.5, 100.0,
-             "a loop that the others contradict by more standard deviations is undone"),
+      number("max_closure_sigmas", &max_closure_sigmas, 0.5, 100.0,
+             "a closure without which the graph is less strained by more standard deviations is undone"),
       number("gravity_sigma_rad", &gravity_sigma_rad, 0.0001, 1.0,
              "standard deviation of a measured direction of gravity")};
 }

@@ -32,10 +32,14 @@ std::vector<LoopCandidate> LoopVerdicts::offer(LoopCandidate& loop, double way_m
   }
   loop.agreeing = static_cast<int>(keyframes.size());
   if (loop.agreeing < needed) return {};
+  const auto known = std::find_if(agreeing.begin(), agreeing.end(),
+                                  [](const Waiting* other) { return other->is_confirmed; });
+  loop.closure = known != agreeing.end() ? (*known)->loop.closure : closures_++;
   std::vector<LoopCandidate> confirmed;
   for (Waiting* other : agreeing) {
     if (std::exchange(other->is_confirmed, true)) continue;
     other->loop.agreeing = loop.agreeing;
+    other->loop.closure = loop.closure;
     other->loop.verdict = LoopVerdict::kClosed;
     confirmed.push_back(other->loop);
   }

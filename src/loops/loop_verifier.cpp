@@ -1,6 +1,7 @@
 #include "depth_fusion/loops/loop_verifier.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "loops/feature_alignment.h"

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "depth_fusion/common/error.h"
@@ -60,9 +61,10 @@ void PoseGraph::addWay(uint32_t from, uint32_t to, const Pose& T_from_to, double
            way_m});
 }
 
-size_t PoseGraph::addLoop(uint32_t from, uint32_t to, const Pose& T_from_to, const Matrix6d& covariance) {
+size_t PoseGraph::addLoop(uint32_t from, uint32_t to, const Pose& T_from_to, const Matrix6d& covariance,
+                          uint32_t closure) {
   const std::vector<uint32_t> part = parts();
-  addEdge({from, to, orthonormalized(T_from_to), covariance, 0.0, true});
+  addEdge({from, to, orthonormalized(T_from_to), covariance, 0.0, true, closure});
   if (part[from] != part[to]) {
     const bool to_moves = part[from] < part[to];
     const Pose T_W_to = pose(from) * T_from_to, T_W_from = pose(to) * T_from_to.inverse();
@@ -93,28 +95,72 @@ double PoseGraph::sigmasOf(size_t edge) const {
   return std::sqrt(std::max(0.0, twist.dot(loop.covariance.ldlt().solve(twist))));
 }
 
+std::set<uint32_t> PoseGraph::undone() const {
+  std::set<uint32_t> closures;
+  for (const GraphEdge& edge : edges_) {
+    if (edge.is_undone) closures.insert(edge.closure);
+  }
+  return closures;
+}
+
+void PoseGraph::setUndone(const std::set<uint32_t>& closures) {
+  for (GraphEdge& edge : edges_) edge.is_undone = edge.is_loop && closures.count(edge.closure) > 0;
+}
+
+GraphSolver PoseGraph::solver(const std::vector<Pose>& start) const {
+  GraphSolver solver(start, edges_, parts());
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].down_D) solver.addGravity(i, *nodes_[i].down_D, down_W_, parameters_.gravity_sigma_rad);
+  }
+  return solver;
+}
+
+double PoseGraph::solveFrom(const std::vector<Pose>& start, GraphChange& change) {
+  GraphSolver problem = solver(start);
+  change.iterations += problem.solve();
+  for (size_t i = 0; i < nodes_.size(); ++i) nodes_[i].T_W_D = problem.pose(i);
+  return problem.strain();
+}
+
+std::optional<uint32_t> PoseGraph::mostStraining(const std::vector<Pose>& start, GraphChange& change) const {
+  GraphSolver problem = solver(start);
+  change.iterations += problem.solve();
+  const double strain = problem.strain();
+  double most = parameters_.max_closure_sigmas * parameters_.max_closure_sigmas;
+  std::optional<uint32_t> found;
+  std::set<uint32_t> closures;
+  for (const GraphEdge& edge : edges_) {
+    if (edge.is_loop && !edge.is_undone) closures.insert(edge.closure);
+  }
+  for (const uint32_t closure : closures) {
+    const double relieved = strain - problem.strainWithout(closure);
+    if (relieved < most) continue;
+    most = relieved;
+    found = closure;
+  }
+  return found;
+}
+
 GraphChange PoseGraph::solve() {
   GraphChange change;
   std::vector<Pose> before;
   for (const Node& node : nodes_) before.push_back(node.T_W_D);
-  for (bool has_contradiction = true; has_contradiction;) {
-    GraphSolver solver(before, edges_, parts());
-    for (size_t i = 0; i < nodes_.size(); ++i) {
-      if (nodes_[i].down_D) solver.addGravity(i, *nodes_[i].down_D, down_W_, parameters_.gravity_sigma_rad);
+  double strain = solveFrom(before, change);
+  if (strain > strain_ + parameters_.max_closure_sigmas * parameters_.max_closure_sigmas) {
+    const std::set<uint32_t> undone_before = undone();
+    std::set<uint32_t> undone_now;
+    setUndone(undone_now);
+    while (const std::optional<uint32_t> closure = mostStraining(before, change)) {
+      undone_now.insert(*closure);
+      setUndone(undone_now);
     }
-    change.iterations += solver.solve();
-    std::vector<size_t> contradicted = solver.contradicted(parameters_.max_edge_sigmas);
-    has_contradiction = !contradicted.empty();
-    if (has_contradiction) change.iterations += solver.solveRobustly(parameters_.max_edge_sigmas);
-    for (size_t i = 0; i < nodes_.size(); ++i) nodes_[i].T_W_D = solver.pose(i);
-    if (!has_contradiction) break;
-    contradicted = solver.contradicted(parameters_.max_edge_sigmas);
-    has_contradiction = !contradicted.empty();
-    for (const size_t edge : contradicted) {
-      edges_[edge].is_undone = true;
-      change.undone.push_back(edge);
-    }
+    strain = solveFrom(before, change);
+    std::set_difference(undone_now.begin(), undone_now.end(), undone_before.begin(), undone_before.end(),
+                        std::back_inserter(change.undone));
+    std::set_difference(undone_before.begin(), undone_before.end(), undone_now.begin(), undone_now.end(),
+                        std::back_inserter(change.restored));
   }
+  strain_ = strain;
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const Pose motion = before[i].inverse() * nodes_[i].T_W_D;
     change.largest_move_m = std::max(change.largest_move_m, motion.translation().norm());

@@ -39,7 +39,8 @@ struct LoopCandidate {
   double apart_m = 0.0;                   // the keyframes, by the graph
   double way_m = 0.0;                     // between them, as far as the graph has no shorter one
   double drift_sigmas = 0.0;
-  int agreeing = 0;  // keyframes, with this one
+  int agreeing = 0;      // keyframes, with this one
+  uint32_t closure = 0;  // of a closed one: loops that agree are one closure
   Pose T_old_new = Pose::Identity();
   Matrix6d covariance = Matrix6d::Zero();  // of the twist on the left
 

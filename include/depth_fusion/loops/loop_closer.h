@@ -42,9 +42,9 @@ class LoopCloser {
   // Without `load` all keyframes are kept here.
   explicit LoopCloser(const LoopParameters& parameters, LoadKeyframe load = {});
 
-  // Takes in a keyframe with its view and way, which grows from one to the next. Without a motion nothing is known of how it lies to the one
-  // before: a map that begins anew, another session, another robot. `down_D`: the direction of gravity in its
-  // frame, if it was measured.
+  // Takes in a keyframe with its view and way, which grows from one to the next. Without a motion nothing is
+  // known of how it lies to the one before: a map that begins anew, another session, another robot. `down_D`:
+  // the direction of gravity in its frame, if it was measured.
   LoopReport add(KeyframePtr keyframe, const std::optional<KeyframeMotion>& motion,
                  const std::optional<Eigen::Vector3d>& down_D = std::nullopt);
 
@@ -75,6 +75,7 @@ class LoopCloser {
   // Places that fit and cannot be the same one.
   bool areAmbiguous(const std::vector<LoopCandidate>& candidates, const std::vector<size_t>& fitting) const;
   void close(const std::vector<LoopCandidate>& confirmed, LoopReport& report);
+  void setVerdict(uint32_t closure, LoopVerdict verdict, LoopReport& report);
 
   LoopParameters parameters_;
   LoadKeyframe load_;
@@ -83,7 +84,7 @@ class LoopCloser {
   LoopVerdicts verdicts_;
   PoseGraph graph_;
   std::vector<Known> known_;
-  std::vector<std::pair<size_t, LoopCandidate>> closed_;  // with their edges
+  std::vector<LoopCandidate> closed_;  // and those that were
 };
 
 }  // namespace depth_fusion

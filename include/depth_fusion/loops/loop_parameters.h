@@ -9,11 +9,11 @@ namespace depth_fusion {
 struct LoopParameters {
   float min_way_m = 3.0f;
   int index_features = 300;
-  int max_candidates = 4;
+  int max_candidates = 6;
   float candidate_spacing_m = 1.0f;
   int max_descriptor_distance = 70;
   float max_descriptor_ratio = 0.9f;
-  int min_inliers = 20;
+  int min_inliers = 12;
   float min_overlap = 0.3f;
   float max_rmse_sigmas = 2.0f;
   float max_contradicted = 0.1f;
@@ -34,7 +34,7 @@ struct LoopParameters {
   float agreement_way_m = 5.0f;
   float loop_sigma_m = 0.01f;
   float loop_sigma_rad = 0.005f;
-  float max_edge_sigmas = 5.0f;
+  float max_closure_sigmas = 6.0f;
   float gravity_sigma_rad = 0.02f;
 
   ParameterTable table();

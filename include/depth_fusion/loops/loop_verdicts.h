@@ -14,7 +14,7 @@ class LoopVerdicts {
 
   // Takes in a loop that fits, whose new keyframe was passed after so much way. Returns the loops that are
   // confirmed by it, itself among them, once so many keyframes agree on how the two places lie to each other.
-  // Sets how many do.
+  // Sets how many do. Those that agree with confirmed ones belong to the same closure.
   std::vector<LoopCandidate> offer(LoopCandidate& loop, double way_m, const PoseGraph& graph, int needed);
 
  private:
@@ -28,6 +28,7 @@ class LoopVerdicts {
 
   LoopParameters parameters_;
   std::vector<Waiting> waiting_;
+  uint32_t closures_ = 0;
 };
 
 }  // namespace depth_fusion

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "depth_fusion/geometry/pose.h"
@@ -10,25 +11,28 @@
 
 namespace depth_fusion {
 
+class GraphSolver;
+
 struct GraphEdge {
   uint32_t from = 0, to = 0;
   Pose T_from_to = Pose::Identity();
   Matrix6d covariance = Matrix6d::Identity();  // of the twist on the left
   double way_m = 0.0;                          // that the sensor went from one to the other; a loop has none
   bool is_loop = false;
-  bool is_undone = false;  // others contradict the loop; it counts no more
+  uint32_t closure = 0;    // of a loop: those of one closure are believed, or not, together
+  bool is_undone = false;  // others contradict the loop; it does not count
 };
 
 // What solve() did.
 struct GraphChange {
-  std::vector<size_t> undone;                           // edges
+  std::vector<uint32_t> undone, restored;               // closures
   double largest_move_m = 0.0, largest_turn_rad = 0.0;  // of a node
   int iterations = 0;
 };
 
 // A least-squares problem over SE(3) in units of standard deviations (Lu and Milios 1997), solved by Ceres
-// with analytic derivatives and a sparse Cholesky factorisation. Where a loop is contradicted, those that
-// hold are found by graduated non-convexity with Geman and McClure's kernel (Yang et al. 2020).
+// with analytic derivatives and a sparse Cholesky factorisation. A false loop bends the ways about it more
+// than itself: what betrays it is by how much the graph is less strained without it.
 class PoseGraph {
  public:
   explicit PoseGraph(const LoopParameters& parameters);
@@ -42,10 +46,11 @@ class PoseGraph {
               const Matrix6d& covariance = Matrix6d::Zero());
   // Returns the edge's index. Two parts of the graph that nothing held together before are moved together:
   // the one with the lowest node stays.
-  size_t addLoop(uint32_t from, uint32_t to, const Pose& T_from_to, const Matrix6d& covariance);
+  size_t addLoop(uint32_t from, uint32_t to, const Pose& T_from_to, const Matrix6d& covariance,
+                 uint32_t closure);
 
-  // Finds the poses that fit all edges best, and undoes the loops that contradict the others. The lowest node
-  // of each part stays.
+  // Finds the poses that fit all edges best. Where closures contradict each other, it undoes the fewest that
+  // it takes, and restores others that were undone before. The lowest node of each part stays.
   GraphChange solve();
 
   size_t size() const { return nodes_.size(); }
@@ -53,7 +58,7 @@ class PoseGraph {
   const std::vector<GraphEdge>& edges() const { return edges_; }
   // The edges that meet in a node, those that are undone among them.
   const std::vector<uint32_t>& edgesOf(uint32_t node) const { return nodes_[node].edges; }
-  // How far a loop is from the poses, in standard deviations.
+  // How far an edge is from the poses, in standard deviations.
   double sigmasOf(size_t edge) const;
   size_t bytes() const;
 
@@ -64,6 +69,14 @@ class PoseGraph {
     std::vector<uint32_t> edges;
   };
 
+  // Sets the poses, from where they were, and returns how strained the graph is.
+  double solveFrom(const std::vector<Pose>& start, GraphChange& change);
+  // Of the closures that count, the one without which the graph is less strained by most; none if it is not
+  // by more than a closure may.
+  std::optional<uint32_t> mostStraining(const std::vector<Pose>& start, GraphChange& change) const;
+  std::set<uint32_t> undone() const;
+  void setUndone(const std::set<uint32_t>& closures);
+  GraphSolver solver(const std::vector<Pose>& start) const;
   // For each node the lowest of its part.
   std::vector<uint32_t> parts() const;
   void addEdge(GraphEdge edge);
@@ -72,6 +85,7 @@ class PoseGraph {
   Eigen::Vector3d down_W_ = Eigen::Vector3d::UnitY();
   std::vector<Node> nodes_;
   std::vector<GraphEdge> edges_;
+  double strain_ = 0.0;  // the sum of all squares after the last solve()
 };
 
 // The covariance of the drift on the way (of the twist on the left of T_from_to).

@@ -85,7 +85,7 @@ class Laps {
     for (uint32_t i = 0; i < count; ++i) {
       const uint32_t newer = 100 + static_cast<uint32_t>(random_() % (nodes - 100));
       const uint32_t older = newer - 100;
-      graph.addLoop(older, newer, truth_[older].inverse() * truth_[newer], covariance);
+      graph.addLoop(older, newer, truth_[older].inverse() * truth_[newer], covariance, i / 3);
     }
   }
 

@@ -1,7 +1,7 @@
 #include "apps/benchmark/loops.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -130,7 +130,9 @@ class LoopsBenchmark {
       verified += is_again && is_verified;
       finder.add(number, keyframe.features);
     }
-    const auto share = [&](size_t part) { return again > 0 ? static_cast<double>(part) / again : 0.0; };
+    const auto share = [&](size_t part) {
+      return again > 0 ? static_cast<double>(part) / static_cast<double>(again) : 0.0;
+    };
     char row[300];
     std::snprintf(row, sizeof(row),
                   "| %s | %zu | %zu | %.2f | %.2f | %zu of %zu | %.2f, %.2f | %.1f, %.1f |\n",

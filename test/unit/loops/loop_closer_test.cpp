@@ -92,7 +92,7 @@ TEST_F(LoopCloserTest, ALoopIsClosedOnceKeyframesAgree) {
     const bool is_first = step == 0;
     last = walk.go(seen(step, 2), inRoom(buildingTwin(0), step), is_first ? drift : Pose::Identity(),
                    is_first ? 30.0 : 0.0);
-    if (step < 2) EXPECT_EQ(walk.closed, 0) << "too few have agreed";
+    EXPECT_TRUE(walk.closed == 0 || step >= 2) << "too few have agreed";
   }
   ASSERT_GE(walk.closed, 3) << walk.all();
   for (int step = 0; step < kSteps; ++step) {

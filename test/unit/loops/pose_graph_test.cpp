@@ -64,7 +64,6 @@ TEST(PoseGraph, DerivativesAreThoseOfTheResiduals) {
     const Matrix6d root = Matrix6d::Random();
     edge.covariance = root * root.transpose() + 0.1 * Matrix6d::Identity();
     EdgeCost cost(edge, a, b);
-    cost.setWeight(0.7);
     const Vector6d twist_a = twistFromPose(randomPose(random, 0.5 * angle_rad, 0.3));
     const Vector6d twist_b = twistFromPose(randomPose(random, 0.5 * angle_rad, 0.3));
     expectDerivatives<EdgeCost, 6, 2>(cost, {twist_a, twist_b});
@@ -130,7 +129,7 @@ TEST(PoseGraph, ALoopTakesTheDriftOutOfTheWholeWay) {
   Square square(40, 0.001);
   const uint32_t last = 159;
   ASSERT_GT(square.error_m(last), 0.5);
-  square.graph.addLoop(0, last, square.relation(0, last), loopCovariance());
+  square.graph.addLoop(0, last, square.relation(0, last), loopCovariance(), 0);
   const GraphChange change = square.graph.solve();
   EXPECT_TRUE(change.undone.empty());
   EXPECT_LT(square.error_m(last), 0.03);
@@ -152,21 +151,43 @@ TEST(PoseGraph, ALoopThatOthersContradictIsUndone) {
   Square square(40, 0.001), without(40, 0.001);
   Pose wrong = square.relation(5, 130);
   wrong.translation() += Eigen::Vector3d(0.6, 0.0, 0.3);
-  const size_t wrong_edge = square.graph.addLoop(5, 130, wrong, loopCovariance());
+  constexpr uint32_t kWrong = 7;
+  const size_t wrong_edge = square.graph.addLoop(5, 130, wrong, loopCovariance(), kWrong);
   EXPECT_TRUE(square.graph.solve().undone.empty()) << "nothing contradicts it yet";
   for (Square* each : {&square, &without}) {
-    for (uint32_t i = 0; i < 4; ++i)
-      each->graph.addLoop(2 * i, 152 + 2 * i, each->relation(2 * i, 152 + 2 * i), loopCovariance());
-    each->graph.addLoop(10, 140, each->relation(10, 140), loopCovariance());
-    each->graph.addLoop(12, 128, each->relation(12, 128), loopCovariance());
+    const auto addTrue = [&](uint32_t from, uint32_t to, uint32_t closure) {
+      each->graph.addLoop(from, to, each->relation(from, to), loopCovariance(), closure);
+    };
+    for (uint32_t i = 0; i < 4; ++i) addTrue(2 * i, 152 + 2 * i, 8);
+    addTrue(10, 140, 9);
+    addTrue(12, 128, 9);
   }
   const GraphChange change = square.graph.solve();
-  ASSERT_EQ(change.undone, std::vector<size_t>{wrong_edge});
+  ASSERT_EQ(change.undone, std::vector<uint32_t>{kWrong});
   EXPECT_TRUE(square.graph.edges()[wrong_edge].is_undone);
   without.graph.solve();
   for (const uint32_t node : {20u, 100u, 130u, 159u})
     EXPECT_LT((square.graph.pose(node).translation() - without.graph.pose(node).translation()).norm(), 2e-3)
         << "all is as if it had never been: " << node;
+}
+
+// Of two that contradict each other one has to go, and comes back when more say that it was right.
+TEST(PoseGraph, AClosureThatWasUndoneComesBackIfOthersAgreeWithIt) {
+  Square square(40, 0.001);
+  Pose wrong = square.relation(5, 130);
+  wrong.translation() += Eigen::Vector3d(0.6, 0.0, 0.3);
+  square.graph.addLoop(5, 130, wrong, loopCovariance(), 0);
+  square.graph.solve();
+  square.graph.addLoop(6, 131, square.relation(6, 131), loopCovariance(), 1);
+  const GraphChange first = square.graph.solve();
+  ASSERT_EQ(first.undone.size(), 1u);
+  square.graph.addLoop(7, 132, square.relation(7, 132), loopCovariance(), 2);
+  square.graph.addLoop(8, 133, square.relation(8, 133), loopCovariance(), 3);
+  const GraphChange second = square.graph.solve();
+  for (const GraphEdge& edge : square.graph.edges()) {
+    EXPECT_EQ(edge.is_undone, edge.is_loop && edge.closure == 0) << edge.closure;
+  }
+  EXPECT_EQ(second.restored.size(), first.undone[0] == 0 ? 0u : 1u);
 }
 
 TEST(PoseGraph, GravityTakesOutWhatTiltsTheWay) {
@@ -182,7 +203,7 @@ TEST(PoseGraph, GravityTakesOutWhatTiltsTheWay) {
     }
     Pose back = Pose::Identity();
     back.translation().z() = 0.5;
-    graph.addLoop(58, 59, back, loopCovariance());
+    graph.addLoop(58, 59, back, loopCovariance(), 0);
     graph.solve();
     const double tilt_rad = std::acos(graph.pose(30).linear()(1, 1));
     if (has_gravity)
@@ -205,7 +226,7 @@ TEST(PoseGraph, ALoopMovesTheOtherPartTogether) {
   graph.addNode(elsewhere * motion);
   graph.addWay(2, 3, motion, 1.0);
   EXPECT_FALSE(GraphWays(graph, 3).relationFrom(0)) << "nothing holds them together";
-  graph.addLoop(3, 1, Pose::Identity(), loopCovariance());
+  graph.addLoop(3, 1, Pose::Identity(), loopCovariance(), 0);
   graph.solve();
   EXPECT_TRUE(graph.pose(0).isApprox(Pose::Identity()));
   EXPECT_LT((graph.pose(2).translation() - Eigen::Vector3d::Zero()).norm(), 1e-6);
@@ -218,7 +239,7 @@ TEST(GraphWays, TakeTheShortWayOverALoopAndKnowHowSureItIs) {
   const GraphRelation before = *GraphWays(square.graph, 159).relationFrom(0);
   EXPECT_NEAR(before.way_m, 79.5, 1e-9);
   EXPECT_LT((before.T_a_b.matrix() - square.relation(0, 159).matrix()).norm(), 1e-9);
-  square.graph.addLoop(0, 158, square.relation(0, 158), loopCovariance());
+  square.graph.addLoop(0, 158, square.relation(0, 158), loopCovariance(), 0);
   const GraphRelation after = *GraphWays(square.graph, 159).relationFrom(0);
   EXPECT_NEAR(after.way_m, 0.5, 1e-9);
   EXPECT_LT(after.covariance.trace(), 0.02 * before.covariance.trace());
