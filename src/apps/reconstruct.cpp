@@ -74,13 +74,19 @@ void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
       "--self-calibrate", options.self_calibrate,
       "find what the depth is off by from the recording (its first 1000 frames are read twice more), "
       "and correct it; see docs/calibration.md");
+  app.add_flag("--single-pass", options.single_pass,
+               "seek no loops: the map is what was fused while tracking; see docs/loops.md");
   app.add_flag("--no-mesh", options.no_mesh, "track and fuse only, for timing");
   app.add_flag("--print-params", arguments.print_parameters,
                "list every parameter with its value, range and meaning");
 }
 
-void printParameters(PipelineParameters& parameters) {
-  for (const Parameter& parameter : parameters.table()) {
+ParameterTable allParameters(RunOptions& options) {
+  return joined({options.parameters.table(), withPrefix("loops", options.loops.table())});
+}
+
+void printParameters(const ParameterTable& parameters) {
+  for (const Parameter& parameter : parameters) {
     std::cout << parameter.name << ": " << valueText(parameter) << "   # " << rangeText(parameter) << " "
               << helpText(parameter) << "\n";
   }
@@ -106,9 +112,9 @@ int run(const Arguments& arguments, RunOptions& options) {
     adoptParameters(describeMap(*options.stored), options.parameters);
     if (options.map.empty()) options.map = options.continued;
   }
-  validate(options.parameters.table());
+  validate(allParameters(options));
   if (arguments.print_parameters) {
-    printParameters(options.parameters);
+    printParameters(allParameters(options));
     return 0;
   }
   check(!options.inputs.empty() && !options.output.empty(), "--input and --output are needed; see --help");
@@ -124,7 +130,7 @@ int main(int argc, char** argv) {
   depth_fusion::RunOptions options;
   addOptions(app, arguments, options);
   return depth_fusion::runApp(app, [&] {
-    parse(app, argc, argv, arguments.recording, options.parameters.table(), options.recording);
+    parse(app, argc, argv, arguments.recording, depth_fusion::allParameters(options), options.recording);
     return run(arguments, options);
   });
 }

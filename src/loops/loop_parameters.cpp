@@ -4,6 +4,11 @@ namespace depth_fusion {
 
 ParameterTable LoopParameters::table() {
   return {
+      number("keyframe_distance_m", &keyframe_distance_m, 0.01, 10.0,
+             "way from one keyframe to the next, unless the sensor turned"),
+      number("keyframe_angle_rad", &keyframe_angle_rad, 0.01, 3.1416, "by this angle"),
+      number("view_width_px", &view_width_px, 16, 4096,
+             "width to which the depth is halved by which keyframes are compared"),
       number("min_way_m", &min_way_m, 0.1, 1000.0,
              "a place that the sensor left less far back on its way is no loop"),
       number("index_features", &index_features, 20, 5000,
@@ -53,7 +58,9 @@ ParameterTable LoopParameters::table() {
       number("max_closure_sigmas", &max_closure_sigmas, 0.5, 100.0,
              "a closure without which the graph is less strained by more standard deviations is undone"),
       number("gravity_sigma_rad", &gravity_sigma_rad, 0.0001, 1.0,
-             "standard deviation of a measured direction of gravity")};
+             "standard deviation of a measured direction of gravity"),
+      number("least_move_m", &least_move_m, 0.0, 10.0,
+             "where loops move no pose by more, the map stays as it is: tracking was as sure as they are")};
 }
 
 }  // namespace depth_fusion

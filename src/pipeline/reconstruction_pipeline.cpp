@@ -31,6 +31,8 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   ahead_.prepare();
   fuseAndRender(frame, result);
   ahead_.wait();
+  if (loops_ && result.fusion.fused())
+    loops_->add(frame.stamp_s, session_.features(), result.tracking.T_W_D, *view_);
   session_.conclude(result.fusion.fused());
   return result;
 }
@@ -44,6 +46,14 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   result.tracking.T_W_D = T_W_D;
   fuse(frame, result, true);
   return result;
+}
+
+void ReconstructionPipeline::closeLoops(const LoopParameters& parameters) {
+  loops_ = std::make_unique<LoopClosing>(parameters);
+}
+
+void ReconstructionPipeline::setKeyframes(Keyframes keyframes) {
+  session_.reset(last_pose_.T_W_D, std::move(keyframes));
 }
 
 LoadedMap ReconstructionPipeline::load(Database& stored) {
@@ -65,6 +75,7 @@ SaveReport ReconstructionPipeline::save(MapSaver& saver) {
 
 void ReconstructionPipeline::beginAnew() {
   session_.beginAnew();
+  if (loops_) loops_->beginAnew();
   map_.reset(Eigen::Vector3d::Zero());
   view_ = nullptr;
 }

@@ -123,7 +123,7 @@ MotionPrior TrackingSession::takePrepared(const RgbdFrame& frame) {
 void TrackingSession::conclude(bool fused) {
   if (fused) {
     check(found_.has_value(), "TrackingSession: no frame is to be concluded");
-    relocaliser_.add(found_->features, found_->result.T_W_D);
+    relocaliser_.add(found_->stamp_s, found_->features, found_->result.T_W_D);
     tracker_.accept(found_->result);
     const bool begins_map = found_->result.prior == kStart;
     begins_map ? young_map_.begin() : young_map_.grow();
@@ -137,6 +137,11 @@ void TrackingSession::conclude(bool fused) {
     motion_.lose();
   }
   found_.reset();
+}
+
+const FrameFeatures& TrackingSession::features() const {
+  check(found_.has_value(), "TrackingSession: there is no frame that is not concluded");
+  return found_->features;
 }
 
 void TrackingSession::follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers) {

@@ -2,24 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 namespace depth_fusion {
 namespace {
-
-constexpr double kThumbnailBlur_px = 2.0;
-
-cv::Mat thumbnailOf(const FrameFeatures& features) {
-  cv::Mat thumbnail;
-  cv::resize(features.smoothed_levels.back(), thumbnail, cv::Size(kThumbnailWidth_px, kThumbnailHeight_px),
-             0.0, 0.0, cv::INTER_AREA);
-  thumbnail.convertTo(thumbnail, CV_32F);
-  cv::GaussianBlur(thumbnail, thumbnail, cv::Size(), kThumbnailBlur_px);
-  thumbnail -= cv::mean(thumbnail)[0];
-  const double norm = cv::norm(thumbnail);
-  return norm > 0.0 ? cv::Mat(thumbnail / norm) : thumbnail;
-}
 
 // How far apart two cameras stand; below 1 they see much of the same.
 double separation(const Pose& T_W_A, const Pose& T_W_B, const RelocalisationParameters& parameters) {
@@ -54,17 +40,12 @@ void Relocaliser::setParameters(const RelocalisationParameters& parameters) {
   dropSurplus();
 }
 
-void Relocaliser::add(const FrameFeatures& features, const Pose& T_W_D) {
+void Relocaliser::add(double stamp_s, const FrameFeatures& features, const Pose& T_W_D) {
   if (!features.reason.empty() || parameters_.max_keyframes == 0) return;
   for (const KeyframePtr& keyframe : keyframes_) {
     if (separation(keyframe->T_W_D, T_W_D, parameters_) < 1.0) return;
   }
-  Keyframe keyframe;
-  keyframe.features = features;
-  keyframe.thumbnail = thumbnailOf(features);
-  keyframe.T_W_D = T_W_D;
-  keyframe.features.smoothed_levels.clear();
-  keyframes_.push_back(std::make_shared<const Keyframe>(std::move(keyframe)));
+  keyframes_.push_back(std::make_shared<const Keyframe>(keyframeOf(features, T_W_D, stamp_s)));
   dropSurplus();
 }
 

@@ -7,6 +7,9 @@
 namespace depth_fusion {
 
 struct LoopParameters {
+  float keyframe_distance_m = 0.3f;
+  float keyframe_angle_rad = 0.3f;
+  int view_width_px = 320;
   float min_way_m = 3.0f;
   int index_features = 300;
   int max_candidates = 6;
@@ -36,6 +39,7 @@ struct LoopParameters {
   float loop_sigma_rad = 0.005f;
   float max_closure_sigmas = 6.0f;
   float gravity_sigma_rad = 0.02f;
+  float least_move_m = 0.03f;
 
   ParameterTable table();
 };

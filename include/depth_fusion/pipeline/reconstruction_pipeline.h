@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "depth_fusion/pipeline/frame_ahead.h"
+#include "depth_fusion/pipeline/loop_closing.h"
 #include "depth_fusion/pipeline/mapper.h"
 #include "depth_fusion/pipeline/tracking_session.h"
 #include "depth_fusion/submaps/map_file.h"
@@ -34,6 +35,12 @@ class ReconstructionPipeline {
   // a frame was announced.
   FrameResult processFrame(const RgbdFrame& frame, const Pose& T_W_D);
 
+  // Has loops sought from the next tracked frame on. What they make of the poses is for the caller to use:
+  // the map stays as it is.
+  void closeLoops(const LoopParameters& parameters);
+  // Null where loops are not sought.
+  LoopClosing* loops() { return loops_.get(); }
+
   // Goes on with a stored map: W is the map's, and the sensor is searched for in it. Throws Error, and
   // changes nothing, if the map does not fit the parameters or is damaged, or if a frame was announced.
   LoadedMap load(Database& stored);
@@ -48,6 +55,9 @@ class ReconstructionPipeline {
   // The last frame, preprocessed; null before the first.
   std::shared_ptr<const DepthFrame> depth() const { return session_.depth(); }
   size_t keyframeCount() const { return session_.keyframes().size(); }
+  const Keyframes& keyframes() const { return session_.keyframes(); }
+  // Takes these for the map's keyframes; the sensor is then searched for.
+  void setKeyframes(Keyframes keyframes);
 
  private:
   void beginAnew();
@@ -68,6 +78,7 @@ class ReconstructionPipeline {
   TrackingSession session_;
   const ModelView* view_ = nullptr;  // of the last fused frame; none before the first
   StampedPose last_pose_;            // of the last fused frame
+  std::unique_ptr<LoopClosing> loops_;
   FrameAhead ahead_;
 };
 

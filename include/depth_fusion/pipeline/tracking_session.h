@@ -62,6 +62,8 @@ class TrackingSession {
 
   // The frame of the last step() or follow(), preprocessed.
   std::shared_ptr<const DepthFrame> depth() const { return depth_; }
+  // Those of the frame with a pose from the last step(), until it is concluded.
+  const FrameFeatures& features() const;
   const Keyframes& keyframes() const { return relocaliser_.keyframes(); }
 
  private:

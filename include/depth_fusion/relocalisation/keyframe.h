@@ -20,13 +20,19 @@ struct Keyframe {
   FrameFeatures features;  // without the smoothed images
   cv::Mat thumbnail;       // CV_32FC1, zero mean, unit norm
   Pose T_W_D = Pose::Identity();
+  double stamp_s = 0.0;  // of the frame
 
   // What loops are closed by; a keyframe of the relocaliser alone has none of it.
-  KeyframeView view;     // the map as the depth camera saw it then
-  uint32_t submap = 0;   // that was active
-  double stamp_s = 0.0;  // of the frame
-  double way_m = 0.0;    // that the sensor had gone
+  KeyframeView view;    // the map as the depth camera saw it then
+  uint32_t submap = 0;  // that was active
+  double way_m = 0.0;   // that the sensor had gone
 };
+
+// What a frame looks like from afar. It has features.
+cv::Mat thumbnailOf(const FrameFeatures& features);
+
+// The frame without what loops are closed by. It has features.
+Keyframe keyframeOf(const FrameFeatures& features, const Pose& T_W_D, double stamp_s);
 
 // A keyframe does not change, so that all who need it share it.
 using KeyframePtr = std::shared_ptr<const Keyframe>;

@@ -15,7 +15,7 @@ class Relocaliser {
 
   // Keeps the frame as a keyframe if it has features and no keyframe is near. When there are too many, the
   // one that stands closest to another goes.
-  void add(const FrameFeatures& features, const Pose& T_W_D);
+  void add(double stamp_s, const FrameFeatures& features, const Pose& T_W_D);
   // Forgets the keyframes that there are for those of another map, all of which are kept until one comes.
   void reset(Keyframes keyframes = {});
 

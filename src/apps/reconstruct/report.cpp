@@ -71,6 +71,7 @@ void writeReport(const std::string& path, const std::string& input, ComputeConte
         {"unreadable", counts.unreadable},
         {"colored", counts.colored}}},
       {"tracking", trackingJson(counts, pipeline)},
+      {"loops", {{"closed", counts.loops}, {"moved_m", counts.moved_by_loops_m}}},
       {"frame_ms", frame},
       {"stage_ms", stages},
       {"map",

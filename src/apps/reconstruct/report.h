@@ -23,7 +23,9 @@ struct RunCounts {
   size_t unreadable = 0;
   size_t colored = 0;  // of the tracked ones: with colour in the map
   std::vector<Loss> losses;
-  std::string map_doubt;  // TrackingResult::map_doubt, if there was one
+  size_t loops = 0;               // closed
+  double moved_by_loops_m = 0.0;  // the pose that they moved most
+  std::string map_doubt;          // TrackingResult::map_doubt, if there was one
 };
 
 // Returns the largest resident set of the process so far, in bytes.

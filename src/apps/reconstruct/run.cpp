@@ -9,8 +9,11 @@
 #include <filesystem>
 #include <iostream>
 
+#include "apps/reconstruct/loop_results.h"
 #include "apps/reconstruct/results.h"
 #include "apps/reconstruct/run_log.h"
+#include "apps/reconstruct/second_pass.h"
+#include "common/io/text_file.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/percentile.h"
 #include "depth_fusion/frames/y_down.h"
@@ -30,6 +33,7 @@ class Run {
   int execute();
 
  private:
+  void openRecording();
   void fuseRecording();
   // Reads the next frame, past those that cannot be read; returns nothing at the end.
   std::optional<RgbdFrame> nextFrame();
@@ -38,6 +42,8 @@ class Run {
   // Goes on with the map of --continue.
   void loadMap();
   FrameResult fuse(const RgbdFrame& frame, const RgbdFrame* next);
+  // Fuses the frames once more where loops have them, if that moves them far enough.
+  void applyLoops();
   void showProgress(bool last);
   // Returns 0 before the first frame.
   double medianFrame_ms() const;
@@ -47,14 +53,15 @@ class Run {
   ComputeContext compute_;
   std::unique_ptr<Recording> recording_;
   Trajectory poses_;
+  CameraIntrinsics camera_;
+  std::vector<double> ways_m_;  // of the sensor, up to each tracked frame
   std::unique_ptr<ReconstructionPipeline> pipeline_;
   std::unique_ptr<MapSaver> saver_;  // null: the map is saved nowhere
 };
 
 Run::Run(const RunOptions& options) : options_(options), log_(options), compute_(options.device) {
   std::cout << "device: " << compute_.selfTestReport() << std::endl;
-  recording_ = registered(openRecordings(options.inputs, options.recording), compute_,
-                          options.parameters.registration);
+  openRecording();
   std::cout << "input: " << recording_->description() << std::endl;
   if (!options.trajectory_file.empty()) poses_ = readPoses(options.trajectory_file);
   std::error_code error;
@@ -62,6 +69,11 @@ Run::Run(const RunOptions& options) : options_(options), log_(options), compute_
   check(!error && access(options.output.c_str(), W_OK) == 0,
         "the output folder " + options.output + " cannot be written" +
             (error ? " (" + error.message() + ")" : "") + "; choose another with --output");
+}
+
+void Run::openRecording() {
+  recording_ = registered(openRecordings(options_.inputs, options_.recording), compute_,
+                          options_.parameters.registration);
 }
 
 int Run::execute() {
@@ -73,6 +85,7 @@ int Run::execute() {
   }
   check(pipeline_ != nullptr, log_.input() + ": no frame could be read");
   log_.conclude();
+  if (pipeline_->loops() != nullptr && !interrupted) applyLoops();
   writeResults(options_, compute_, *pipeline_, saver_.get(), log_);
   return log_.failed() ? 1 : 0;
 }
@@ -84,6 +97,7 @@ void Run::fuseRecording() {
     log_.begin(*frame);
     std::optional<RgbdFrame> next = mayReadOn() ? nextFrame() : std::nullopt;
     log_.note(*frame, fuse(*frame, next ? &*next : nullptr));
+    if (pipeline_->loops() != nullptr) ways_m_.resize(log_.trajectory().size(), pipeline_->loops()->way_m());
     if (const auto depth = pipeline_->depth()) log_.noteNoise(options_.parameters.depth_sensor, *depth);
     showProgress(false);
     frame = std::move(next);
@@ -112,6 +126,7 @@ void Run::buildPipeline(const CameraIntrinsics& camera) {
   {
     const StageTimers::Scope timer(timers, "build");
     pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, camera);
+    camera_ = camera;
   }
   std::printf(" %.1f s\n", timers.samplesMs().at("build").front() / 1000.0);
   std::fflush(stdout);
@@ -120,6 +135,9 @@ void Run::buildPipeline(const CameraIntrinsics& camera) {
     saver_ = std::make_unique<MapSaver>(options_.map);
   }
   if (options_.stored != nullptr) loadMap();
+  // In a map that was loaded there is what no recording can fuse again.
+  if (!options_.single_pass && options_.trajectory_file.empty() && options_.stored == nullptr)
+    pipeline_->closeLoops(options_.loops);
 }
 
 void Run::loadMap() {
@@ -137,6 +155,26 @@ FrameResult Run::fuse(const RgbdFrame& frame, const RgbdFrame* next) {
   FrameResult without_pose;
   without_pose.tracking.reason = "no pose near its stamp in " + options_.trajectory_file;
   return without_pose;
+}
+
+void Run::applyLoops() {
+  const LoopResults loops = resultsOf(*pipeline_->loops(), log_.trajectory(), ways_m_);
+  const std::string problem = pipeline_->loops()->problem();
+  if (!problem.empty()) log_.complain(problem);
+  writeText(options_.output + "/loops.csv", loops.table);
+  if (loops.moved_m <= static_cast<double>(options_.loops.least_move_m)) return;
+  std::printf("%zu loops move poses by up to %.0f mm: the frames are fused once more\n", loops.closed,
+              1000.0 * loops.moved_m);
+  writeTrajectory(options_.output + "/trajectory_without_loops.txt", log_.trajectory());
+  log_.correct(loops.corrected, loops.closed, loops.moved_m);
+  const StageTimers timers = pipeline_->timers();
+  const Keyframes keyframes = movedTo(log_.trajectory(), pipeline_->keyframes());
+  pipeline_.reset();  // its memory is needed
+  openRecording();
+  pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, camera_);
+  fuseAgain(*recording_, *pipeline_, log_, interrupted);
+  pipeline_->timers() = timers;
+  pipeline_->setKeyframes(keyframes);
 }
 
 void Run::showProgress(bool last) {

@@ -21,13 +21,15 @@ struct RunOptions {
   size_t max_frames = 0;             // 0 = all
   bool no_mesh = false;
   bool self_calibrate = false;  // from the recording, before it is fused
+  bool single_pass = false;     // loops are not sought
+  LoopParameters loops;
   RecordingOptions recording;
   PipelineParameters parameters;
 };
 
-// Fuses the recording and writes mesh, trajectory and report. Returns the exit status: 1 if a frame could not
-// be read, most were lost, the pool was full, or a file could not be written, each said on standard error.
-// Throws Error if nothing can start.
+// Fuses the recording, once more if loops move its poses, and writes mesh, trajectory and report. Returns the
+// exit status: 1 if a frame could not be read, most were lost, the pool was full, or a file could not be
+// written, each said on standard error. Throws Error if nothing can start.
 int reconstruct(const RunOptions& options);
 
 }  // namespace depth_fusion

@@ -89,6 +89,12 @@ void RunLog::noteUnreadable(const std::string& why) {
   complain(why);
 }
 
+void RunLog::correct(const Trajectory& corrected, size_t loops, double moved_m) {
+  trajectory_ = corrected;
+  counts_.loops = loops;
+  counts_.moved_by_loops_m = moved_m;
+}
+
 void RunLog::conclude() {
   if (counts_.tracked == 0) complain("no frame of " + input_ + " was fused; the last one is " + status_);
   noteMostLost();
@@ -110,6 +116,13 @@ void RunLog::showProgress(size_t all_frames, double frame_ms, size_t blocks, boo
   std::printf("%sframe %zu/%zu  %.1f ms (%.0f fps)  %zu blocks  %zu lost  %-30s%s", isTerminal() ? "\r" : "",
               counts_.read, all_frames, frame_ms, frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0, blocks,
               counts_.lost, status_.c_str(), isTerminal() && !last ? "" : "\n");
+  std::fflush(stdout);
+}
+
+void RunLog::showSecondPass(size_t frames, bool last) const {
+  if (!isTerminal() && last == (frames % kProgressFrames == 0)) return;
+  std::printf("%sframe %zu/%zu fused again%s", isTerminal() ? "\r" : "", frames, trajectory_.size(),
+              isTerminal() && !last ? "" : "\n");
   std::fflush(stdout);
 }
 

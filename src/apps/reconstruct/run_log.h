@@ -29,11 +29,15 @@ class RunLog {
   // Says once if the noise is not what the sensor model says.
   void noteNoise(const DepthSensorParameters& sensor, const DepthFrame& depth);
   void noteUnreadable(const std::string& why);
+  // The tracked frames' poses are these, by so many loops.
+  void correct(const Trajectory& corrected, size_t loops, double moved_m);
   // Says what is wrong with the whole, after the last frame.
   void conclude();
 
   // Prints how far the run is of so many frames: now and then, or on a terminal always, in the same line.
   void showProgress(size_t all_frames, double frame_ms, size_t blocks, bool last) const;
+  // The same of the second pass.
+  void showSecondPass(size_t frames, bool last) const;
   // What goes wrong, on standard error.
   void complain(const std::string& message);
 

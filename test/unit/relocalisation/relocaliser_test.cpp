@@ -27,12 +27,12 @@ TEST(Relocaliser, KeepsOnlyFramesFarFromEachOther) {
   parameters.keyframe_distance_m = 0.2f;
   parameters.keyframe_angle_rad = 0.25f;
   Relocaliser relocaliser(parameters);
-  relocaliser.add(someFeatures(), at(0.0));
-  relocaliser.add(someFeatures(), at(0.19));
-  relocaliser.add(someFeatures(), at(0.0, 0.24));
+  relocaliser.add(0.0, someFeatures(), at(0.0));
+  relocaliser.add(0.0, someFeatures(), at(0.19));
+  relocaliser.add(0.0, someFeatures(), at(0.0, 0.24));
   EXPECT_EQ(relocaliser.keyframes().size(), 1u);
-  relocaliser.add(someFeatures(), at(0.21));
-  relocaliser.add(someFeatures(), at(0.0, 0.26));
+  relocaliser.add(0.0, someFeatures(), at(0.21));
+  relocaliser.add(0.0, someFeatures(), at(0.0, 0.26));
   ASSERT_EQ(relocaliser.keyframes().size(), 3u);
   EXPECT_TRUE(relocaliser.keyframes()[0]->features.smoothed_levels.empty()) << "too large to keep";
   relocaliser.reset();
@@ -42,7 +42,7 @@ TEST(Relocaliser, KeepsOnlyFramesFarFromEachOther) {
 TEST(Relocaliser, LowerLimitDropsAtOnce) {
   RelocalisationParameters parameters;
   Relocaliser relocaliser(parameters);
-  for (const double x_m : {0.0, 1.0, 2.0}) relocaliser.add(someFeatures(), at(x_m));
+  for (const double x_m : {0.0, 1.0, 2.0}) relocaliser.add(0.0, someFeatures(), at(x_m));
   parameters.max_keyframes = 0;
   relocaliser.setParameters(parameters);
   EXPECT_TRUE(relocaliser.keyframes().empty());
@@ -53,7 +53,7 @@ TEST(Relocaliser, DropsTheMostCrowdedWhenFull) {
   parameters.keyframe_distance_m = 0.2f;
   parameters.max_keyframes = 3;
   Relocaliser relocaliser(parameters);
-  for (const double x_m : {0.0, 1.0, 1.25, 3.0}) relocaliser.add(someFeatures(), at(x_m));
+  for (const double x_m : {0.0, 1.0, 1.25, 3.0}) relocaliser.add(0.0, someFeatures(), at(x_m));
   ASSERT_EQ(relocaliser.keyframes().size(), 3u);
   EXPECT_EQ(relocaliser.keyframes()[0]->T_W_D.translation().x(), 0.0);
   EXPECT_EQ(relocaliser.keyframes()[1]->T_W_D.translation().x(), 1.25);
@@ -64,9 +64,9 @@ TEST(Relocaliser, FramesWithoutFeaturesAreNoKeyframesAndHaveNoCandidates) {
   Relocaliser relocaliser({});
   FrameFeatures none;
   none.reason = "no colour image";
-  relocaliser.add(none, at(0.0));
+  relocaliser.add(0.0, none, at(0.0));
   EXPECT_TRUE(relocaliser.keyframes().empty());
-  relocaliser.add(someFeatures(), at(0.0));
+  relocaliser.add(0.0, someFeatures(), at(0.0));
   EXPECT_TRUE(relocaliser.candidates(none).empty());
 }
 
@@ -82,7 +82,7 @@ TEST(Relocaliser, KeyframesThatLookAlikeComeFirst) {
   std::vector<Pose> poses;
   for (int i = 0; i < 180; ++i) {
     const RgbdFrame frame = *recording.next();
-    if (i % 30 == 0) relocaliser.add(odometry.extract(frame), *frame.T_W_D);
+    if (i % 30 == 0) relocaliser.add(frame.stamp_s, odometry.extract(frame), *frame.T_W_D);
     if (i % 30 != 5) continue;
     between.push_back(odometry.extract(frame));
     poses.push_back(*frame.T_W_D);

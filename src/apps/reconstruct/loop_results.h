@@ -1,0 +1,24 @@
+// What the loops of a run make of its poses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "depth_fusion/pipeline/loop_closing.h"
+
+namespace depth_fusion {
+
+struct LoopResults {
+  std::string table;  // a line for each pair of keyframes that was compared, as CSV
+  size_t closed = 0;
+  Trajectory corrected;
+  double moved_m = 0.0;  // the pose that is moved most
+};
+
+// Waits until all keyframes are compared. `ways_m`: of the sensor, up to each of the poses.
+LoopResults resultsOf(LoopClosing& loops, const Trajectory& tracked, const std::vector<double>& ways_m);
+
+// The keyframes where the trajectory has them. Those that it does not have are left out.
+Keyframes movedTo(const Trajectory& trajectory, const Keyframes& keyframes);
+
+}  // namespace depth_fusion

@@ -1,0 +1,33 @@
+#include "depth_fusion/relocalisation/keyframe.h"
+
+#include <opencv2/imgproc.hpp>
+
+namespace depth_fusion {
+namespace {
+
+constexpr double kThumbnailBlur_px = 2.0;
+
+}  // namespace
+
+cv::Mat thumbnailOf(const FrameFeatures& features) {
+  cv::Mat thumbnail;
+  cv::resize(features.smoothed_levels.back(), thumbnail, cv::Size(kThumbnailWidth_px, kThumbnailHeight_px),
+             0.0, 0.0, cv::INTER_AREA);
+  thumbnail.convertTo(thumbnail, CV_32F);
+  cv::GaussianBlur(thumbnail, thumbnail, cv::Size(), kThumbnailBlur_px);
+  thumbnail -= cv::mean(thumbnail)[0];
+  const double norm = cv::norm(thumbnail);
+  return norm > 0.0 ? cv::Mat(thumbnail / norm) : thumbnail;
+}
+
+Keyframe keyframeOf(const FrameFeatures& features, const Pose& T_W_D, double stamp_s) {
+  Keyframe keyframe;
+  keyframe.features = features;
+  keyframe.features.smoothed_levels.clear();
+  keyframe.thumbnail = thumbnailOf(features);
+  keyframe.T_W_D = T_W_D;
+  keyframe.stamp_s = stamp_s;
+  return keyframe;
+}
+
+}  // namespace depth_fusion
