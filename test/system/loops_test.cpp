@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
 
 #include "common/io/text_file.h"
 #include "depth_fusion/recording/trajectory_file.h"
@@ -12,14 +15,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A way of some 3 m in the room, which sees its places again; every loop is applied, however little it moves.
+// Has a recording go on with its frames in reverse.
+void goBack(const std::string& folder) {
+  for (const char* list : {"depth.txt", "rgb.txt", "groundtruth.txt"}) {
+    std::istringstream all(fileBytes(folder + "/" + list));
+    std::vector<std::pair<double, std::string>> rows;
+    for (std::string line; std::getline(all, line);) {
+      if (line[0] != '#') rows.emplace_back(std::stod(line), line.substr(line.find(' ')));
+    }
+    const double turn_s = 2.0 * rows.back().first + 0.125;
+    std::ofstream more(folder + "/" + list, std::ios::app);
+    more << std::fixed << std::setprecision(6);
+    for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+      more << turn_s - row->first << row->second << "\n";
+  }
+}
+
+// A way in the room, and back; every loop is applied, however little it moves.
 class Loops : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TemporaryFolder>();
     writeText(*folder_ / "loops.yaml",
-              "loops: {min_way_m: 1.0, agreeing_loops: 2, least_move_m: 0.0}\nmap: {voxel_size_m: 0.01}\n");
-    runApp("simulate", {"--output", *folder_ / "room", "--fps", "8", "--frames", "80"});
+              "loops: {min_way_m: 0.5, agreeing_loops: 2, least_move_m: 0.0}\nmap: {voxel_size_m: 0.01}\n");
+    runApp("simulate", {"--output", *folder_ / "room", "--fps", "8", "--frames", "40"});
+    goBack(*folder_ / "room");
     both_passes_ = reconstruct("both", {"--map", *folder_ / "room.map"});
     one_pass_ = reconstruct("one", {"--single-pass"});
   }
@@ -57,9 +77,9 @@ TEST_F(Loops, AreNotSoughtInASinglePass) {
   ASSERT_EQ(one_pass_.status, 0) << one_pass_.errors;
   EXPECT_EQ(readReport(*folder_ / "one")["loops"]["closed"], 0);
   EXPECT_FALSE(fs::exists(*folder_ / "one/loops.csv"));
-  EXPECT_EQ(fileBytes(*folder_ / "one/trajectory.txt"),
-            fileBytes(*folder_ / "both/trajectory_without_loops.txt"));
-  EXPECT_NE(fileBytes(*folder_ / "one/trajectory.txt"), fileBytes(*folder_ / "both/trajectory.txt"));
+  const std::string trajectory = fileBytes(*folder_ / "one/trajectory.txt");
+  EXPECT_TRUE(trajectory == fileBytes(*folder_ / "both/trajectory_without_loops.txt"));
+  EXPECT_FALSE(trajectory == fileBytes(*folder_ / "both/trajectory.txt"));
 }
 
 TEST_F(Loops, LeaveTrajectoryAndMeshOfOnePiece) {
