@@ -121,7 +121,8 @@ TEST(Parameters, ValueTextIsReadBack) {
 
 TEST(Parameters, ValueTextIsShortAndExact) {
   Stage stage;
-  const Parameter& row = findParameter(stage.table(), "distance_m");
+  const ParameterTable table = stage.table();
+  const Parameter& row = findParameter(table, "distance_m");
   for (const float value : {0.1f, 5e-5f, 1.0f / 3.0f, 0.1f + 1e-8f, 16777216.0f}) {
     stage.distance_m = value;
     EXPECT_EQ(std::strtof(valueText(row).c_str(), nullptr), value);
