@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kCornerSigma_px = 1.0;
-constexpr int kMaxSamples = 500;
+constexpr int kMaxSamples = 300;
 constexpr InlierGate kGate{4.0, 4.0};
 
 struct Nearest {

@@ -1,19 +1,40 @@
 #include "depth_fusion/loops/loop_verdicts.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <utility>
 
-namespace depth_fusion {
+#include "loops/graph_way.h"
 
-// What the two loops and the way between their old keyframes say of the way between the new ones is what was
-// tracked.
+namespace depth_fusion {
+namespace {
+
+constexpr double kAgreement_sigmas = 3.0;
+constexpr double kMostApart = 3.0;  // times the tolerance, whatever drift may do
+
+}  // namespace
+
+// The way between the new keyframes, over the two loops and the way between the old ones, is what was
+// tracked: within the tolerance, or within what drift does to the two ways.
 bool LoopVerdicts::agree(const LoopCandidate& a, const LoopCandidate& b, const PoseGraph& graph) const {
   const Pose T_old_old = graph.pose(a.old_keyframe).inverse() * graph.pose(b.old_keyframe);
   const Pose T_new_new = graph.pose(a.new_keyframe).inverse() * graph.pose(b.new_keyframe);
-  const Pose difference = T_new_new.inverse() * a.T_old_new.inverse() * T_old_old * b.T_old_new;
-  return difference.translation().norm() <= parameters_.agreement_m &&
-         rotationAngle(difference) <= parameters_.agreement_rad;
+  const Pose over_loops = a.T_old_new.inverse() * T_old_old * b.T_old_new;
+  const Pose difference = T_new_new.inverse() * over_loops;
+  const double apart = std::max(difference.translation().norm() / parameters_.agreement_m,
+                                rotationAngle(difference) / parameters_.agreement_rad);
+  if (apart <= 1.0) return true;
+  if (apart > kMostApart) return false;
+  const std::optional<GraphRelation> old_way = GraphWays(graph, b.old_keyframe).relationFrom(a.old_keyframe);
+  const std::optional<GraphRelation> new_way = GraphWays(graph, b.new_keyframe).relationFrom(a.new_keyframe);
+  if (!old_way || !new_way) return false;
+  const Matrix6d to_b = adjoint(T_old_old), to_new = adjoint(a.T_old_new.inverse());
+  const Matrix6d about_old = a.covariance + old_way->covariance + to_b * b.covariance * to_b.transpose();
+  const Matrix6d covariance = to_new * about_old * to_new.transpose() + new_way->covariance;
+  const Vector6d twist = twistFromPose(over_loops * T_new_new.inverse());
+  return twist.dot(covariance.ldlt().solve(twist)) <= kAgreement_sigmas * kAgreement_sigmas;
 }
 
 std::vector<LoopCandidate> LoopVerdicts::offer(LoopCandidate& loop, double way_m, const PoseGraph& graph,

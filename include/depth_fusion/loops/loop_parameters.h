@@ -35,8 +35,8 @@ struct LoopParameters {
   float agreement_m = 0.08f;
   float agreement_rad = 0.05f;
   float agreement_way_m = 5.0f;
-  float loop_sigma_m = 0.01f;
-  float loop_sigma_rad = 0.005f;
+  float loop_sigma_m = 0.02f;
+  float loop_sigma_rad = 0.01f;
   float max_closure_sigmas = 6.0f;
   float gravity_sigma_rad = 0.02f;
   float least_move_m = 0.03f;

@@ -82,7 +82,7 @@ LoopInput simulated(const std::string& scene, const std::string& walk, double du
   SimulationOptions options;
   options.scene = scene;
   options.walk = walk;
-  options.fps = 2.0;
+  options.fps = 1.5;
   options.frames = static_cast<int>(duration_s * options.fps);
   options.intrinsics = halved(makeScene(scene).sensor.camera);
   SimulatedRecording recording(options);
