@@ -1,11 +1,15 @@
 // A recording in two sessions, by the apps: the first one's map is kept, and the second one goes on with it.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
+#include <thread>
 
 #include "depth_fusion/recording/trajectory_file.h"
 #include "support/apps.h"
 #include "support/real_data.h"
+#include "support/stored_maps.h"
+#include "support/test_compute.h"
 #include "tools/evaluation/trajectory_error.h"
 
 namespace depth_fusion {
@@ -95,6 +99,32 @@ TEST_F(MapSessions, WhatCannotBeGoneOnWithIsSaidAtTheStart) {
   const AppRun info = runApp("map_info", {folder_ / "notes.txt"});
   EXPECT_EQ(info.status, 1);
   EXPECT_NE(info.errors.find("notes.txt"), std::string::npos) << info.errors;
+}
+
+// Others see whole saves only, whenever they look.
+TEST(StoredMap, IsReadByAnotherProcessWhileItIsSaved) {
+  TemporaryFolder folder;
+  const std::string path = folder / "ball.map";
+  BlockMap map(compute(), smallMap());
+  ChangingMap changing(compute(), map);
+  MapSaver saver(path);
+  changing.show(sphere(Eigen::Vector3d::Zero(), 0.12));
+  save(saver, map);
+  std::atomic<bool> ends{false};
+  std::thread readers([&] {
+    for (int i = 0; i < 8; ++i) {
+      const AppRun info = runApp("map_info", {path});
+      EXPECT_EQ(info.status, 0) << info.errors;
+    }
+    ends = true;
+  });
+  int saves = 0;
+  for (; !ends; ++saves) {
+    changing.show(sphere({0.01 * (saves % 4), 0.0, 0.0}, 0.12 + 0.01 * (saves % 7)));
+    save(saver, map, {someKeyframe(saves)});
+  }
+  readers.join();
+  EXPECT_GT(saves, 8);
 }
 
 }  // namespace

@@ -136,6 +136,19 @@ TEST(BlockStore, OutlastsAServerThatIsAway) {
   for (int i = 0; i < 400; ++i) expectSame(*store.take(keyNumber(i)), groupOf(keyNumber(i)));
 }
 
+// A tenth of a second for each transaction is no failure.
+TEST(BlockStore, KeepsWhatGoesThroughASlowServer) {
+  if (PostgresServer::programs().empty()) GTEST_SKIP() << "no PostgreSQL server here";
+  PostgresServer server;
+  const std::string uri = server.uri("scratch");
+  const std::string options = "options=-c%20commit_delay%3D100000%20-c%20commit_siblings%3D0";
+  const size_t name = uri.find('#');
+  const std::string slow =
+      uri.substr(0, name) + (uri.find('?') < name ? "&" : "?") + options + uri.substr(name);
+  BlockStore store(smallMemory(slow), layers(), kBlockSize);
+  expectToKeepAll(store, 300);
+}
+
 TEST(BlockStore, SaysThatTheDiskIsFullAndCatchesUp) {
   const TemporaryFolder folder;
   BlockStore store(smallMemory(folder / ""), layers(), kBlockSize);
