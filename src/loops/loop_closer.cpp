@@ -83,7 +83,7 @@ LoopReport LoopCloser::add(KeyframePtr keyframe, const std::optional<KeyframeMot
   const Stopwatch verifying;
   const std::vector<size_t> fitting = judge(added, ways, report.candidates);
   const bool ambiguous = areAmbiguous(report.candidates, fitting);
-  std::vector<LoopCandidate> confirmed;
+  std::vector<LoopCandidate> confirmed, earlier;
   for (const size_t i : fitting) {
     LoopCandidate& loop = report.candidates[i];
     if (ambiguous) {
@@ -96,10 +96,11 @@ LoopReport LoopCloser::add(KeyframePtr keyframe, const std::optional<KeyframeMot
       if (isSameLoop(other, loop))
         loop.verdict = LoopVerdict::kClosed;
       else
-        report.candidates.push_back(other);
+        earlier.push_back(other);
       confirmed.push_back(std::move(other));
     }
   }
+  report.candidates.insert(report.candidates.end(), earlier.begin(), earlier.end());
   report.verify_ms = verifying.ms();
   if (!confirmed.empty()) close(confirmed, report);
   return report;

@@ -95,17 +95,17 @@ double PoseGraph::sigmasOf(size_t edge) const {
   return std::sqrt(std::max(0.0, twist.dot(loop.covariance.ldlt().solve(twist))));
 }
 
-// A closure may ask for so many standard deviations of drift; beside that, its loops have noise.
-double PoseGraph::allowance(size_t closures, size_t loops) const {
+// It may ask for so many standard deviations of drift; beside that, its loops have noise.
+double PoseGraph::allowance(size_t loops) const {
   constexpr double kOfALoop = 12.0;  // twice what is to be expected of six residuals
-  return parameters_.max_closure_sigmas * parameters_.max_closure_sigmas * static_cast<double>(closures) +
+  return parameters_.max_closure_sigmas * parameters_.max_closure_sigmas +
          kOfALoop * static_cast<double>(loops);
 }
 
-std::map<uint32_t, size_t> PoseGraph::closures(size_t first_edge) const {
+std::map<uint32_t, size_t> PoseGraph::closures() const {
   std::map<uint32_t, size_t> loops;
-  for (size_t i = first_edge; i < edges_.size(); ++i) {
-    if (edges_[i].is_loop && !edges_[i].is_undone) ++loops[edges_[i].closure];
+  for (const GraphEdge& edge : edges_) {
+    if (edge.is_loop && !edge.is_undone) ++loops[edge.closure];
   }
   return loops;
 }
@@ -143,8 +143,8 @@ std::optional<uint32_t> PoseGraph::mostStraining(const std::vector<Pose>& start,
   const double strain = problem.strain();
   double most = 0.0;
   std::optional<uint32_t> found;
-  for (const auto& [closure, loops] : closures(0)) {
-    const double relieved = strain - problem.strainWithout(closure) - allowance(1, loops);
+  for (const auto& [closure, loops] : closures()) {
+    const double relieved = strain - problem.strainWithout(closure) - allowance(loops);
     if (relieved <= most) continue;
     most = relieved;
     found = closure;
@@ -157,10 +157,7 @@ GraphChange PoseGraph::solve() {
   std::vector<Pose> before;
   for (const Node& node : nodes_) before.push_back(node.T_W_D);
   double strain = solveFrom(before, change);
-  size_t new_loops = 0;
-  const std::map<uint32_t, size_t> added = closures(solved_edges_);
-  for (const auto& [closure, loops] : added) new_loops += loops;
-  if (strain > strain_ + allowance(added.size(), new_loops)) {
+  if (strain > strain_ + allowance(0)) {
     const std::set<uint32_t> undone_before = undone();
     std::set<uint32_t> undone_now;
     setUndone(undone_now);
@@ -175,7 +172,6 @@ GraphChange PoseGraph::solve() {
                         std::back_inserter(change.restored));
   }
   strain_ = strain;
-  solved_edges_ = edges_.size();
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const Pose motion = before[i].inverse() * nodes_[i].T_W_D;
     change.largest_move_m = std::max(change.largest_move_m, motion.translation().norm());

@@ -75,10 +75,10 @@ class PoseGraph {
   // Of the closures that count, the one without which the graph is less strained by most; none if it is not
   // by more than a closure may.
   std::optional<uint32_t> mostStraining(const std::vector<Pose>& start, GraphChange& change) const;
-  // By how much loops may strain the graph.
-  double allowance(size_t closures, size_t loops) const;
-  // The closures that count, with the numbers of their loops among the edges from the given one on.
-  std::map<uint32_t, size_t> closures(size_t first_edge) const;
+  // By how much a closure of so many loops may strain the graph.
+  double allowance(size_t loops) const;
+  // The closures that count, with the numbers of their loops.
+  std::map<uint32_t, size_t> closures() const;
   std::set<uint32_t> undone() const;
   void setUndone(const std::set<uint32_t>& closures);
   GraphSolver solver(const std::vector<Pose>& start) const;
@@ -90,8 +90,7 @@ class PoseGraph {
   Eigen::Vector3d down_W_ = Eigen::Vector3d::UnitY();
   std::vector<Node> nodes_;
   std::vector<GraphEdge> edges_;
-  size_t solved_edges_ = 0;  // that there were in the last solve()
-  double strain_ = 0.0;      // the sum of all squares after it
+  double strain_ = 0.0;  // the sum of all squares after the last solve()
 };
 
 // The covariance of the drift on the way (of the twist on the left of T_from_to).
