@@ -39,6 +39,8 @@ class RunLog {
 
  private:
   void noteLoss(const std::string& reason);
+  // A map begins. Poses of one before it, which is gone, have no place in it.
+  void noteBegin(const std::string& reason);
   void noteTracked(const TrackingResult& tracking);
   void noteFusion(const FusionResult& fusion);
   // Says once that the map may be wrong.
