@@ -18,6 +18,10 @@ inline vuchar magnitude(vchar value) {
   return AS_VUCHAR(select(value, (vchar)(-value), (vchar)(value < (vchar)(0))));
 }
 
+// A surface that is so many standard deviations farther or nearer than a voxel may still be where the voxel
+// is.
+#define NOISY_SIGMAS 2.0f
+
 // OCTANT says which octant of its block a voxel lies in.
 #define HALF_BLOCK_LOG2 (BLOCK_SIZE_LOG2 - 1)
 #define OCTANT(voxel)                                                                             \
@@ -57,6 +61,7 @@ __kernel void integrate_blocks(__global char* voxels, __global const int* visibl
   __global uchar* certainties = (__global uchar*)voxels + block_certainties(slot);
   const float steps_per_m = TSDF_MAX / grid.truncation_m;
   const float free_steps_per_m = args.free_space_sigmas * steps_per_m;
+  const float noisy_steps_per_m = NOISY_SIGMAS * steps_per_m;
   prefetch_distances(item + 1, voxels, visible, visible_count);
   const BlockProjection projection = block_projection(block, T_D_W, camera, grid.voxel_size_m);
   const uint phase_of_first = dither_phase(0, block, args.frame);
@@ -86,22 +91,25 @@ __kernel void integrate_blocks(__global char* voxels, __global const int* visibl
 
       vchar distance = ALIGNED(vchar, distances + voxel);
       const vint known = TO_VINT(distance) != TSDF_CHI;
-      const vint seen = (word != 0) & (steps >= -TSDF_MAX);
-      const vint hit = seen & (steps <= TSDF_MAX);
-      if (ANY(hit | (seen & known))) {
+      const vint seen = word != 0;
+      const vint near = seen & (fabs(steps) <= TSDF_MAX);
+      if (ANY(near | (seen & known))) {
         const vuchar old_byte = ALIGNED(vuchar, certainties + voxel);
         const vfloat old_steps = TO_VFLOAT(distance);
         const vfloat axial_m = AXIAL_SIGMA_M(sensor, measured.depth_m) * surface.slope;
         const vint beyond = (steps - TSDF_MAX) * measured.accuracy > free_steps_per_m * axial_m;
         const vint freed = seen & beyond & known;
+        const vint noisy = fabs(steps) * measured.accuracy <= noisy_steps_per_m * axial_m;
+        const vint hit = near | (seen & noisy & known & ~freed);
         const vuint phase =
             DITHER_STEP * AS_VUINT(LANE_INDICES) + (phase_of_first + DITHER_STEP * (uint)voxel);
         const vfloat random = TO_VFLOAT(AS_VINT(phase >> 8)) * (1.0f / 16777216.0f);
         const FilterStep step =
             fuse_measurement(TO_VINT(old_byte), known, args.units_per_m2 * axial_m * axial_m,
                              measured.accuracy * measured.accuracy, args);
-        const vfloat base_steps = select(steps, old_steps, known);
-        const vint fused = clamp(dithered(base_steps + step.gain * (steps - base_steps), random),
+        const vfloat bounded = clamp(steps, (vfloat)(-TSDF_MAX), (vfloat)(TSDF_MAX));
+        const vfloat base_steps = select(bounded, old_steps, known);
+        const vint fused = clamp(dithered(base_steps + step.gain * (bounded - base_steps), random),
                                  (vint)(-TSDF_MAX), (vint)(TSDF_MAX));
         const vint byte = clamp(dithered(step.certainty, 1.0f - random), (vint)(1), (vint)(CERTAINTY_MAX));
         distance = select(distance, TO_VCHAR(fused), TO_VMASK8(hit));

@@ -1,131 +1,16 @@
 #include "depth_fusion/icp_tracking/icp_tracker.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
-#include <sstream>
 
-#include "icp_tracking/degeneracy.h"
+#include "icp_tracking/alignment.h"
 #include "icp_tracking/frame_geometry.h"
 #include "icp_tracking/icp_tracking_kernels.h"
 
 namespace depth_fusion {
-
-// A prior in the frame of the system, M.
-struct IcpTracker::SystemPrior {
-  Pose T_M_D;
-  std::optional<Matrix6d> information;
-};
-
-// The state that the iterations have come to.
-struct IcpTracker::Alignment {
-  Pose T_M_D;
-  IcpSystem system;  // of the last iteration, as the members below
-  Matrix6d covariance = Matrix6d::Identity();
-  double prior_sigmas = 0.0;    // how far geometry alone is from the prior
-  std::string free_directions;  // those that geometry says weakly among them
-  int free = 0;                 // directions that geometry does not even say weakly
-  double smallest_eigenvalue = 0.0;
-  Vector6d weakest = Vector6d::Zero();  // twist of the smallest eigenvalue
-  std::string weakest_name;
-  int iterations = 0;
-};
-
 namespace {
 
-// No surface leaves more directions free than a plane does, or a sphere.
-constexpr int kMostFree = 3;
 // Where nothing else says anything, geometry has to say this part of the threshold at least.
 constexpr double kWeakly = 0.5;
-// What is guessed may be off by a third of a metre, or of a radian.
-constexpr double kGuessInformation = 9.0;
-
-// The least part of what the frame's points would say of a motion that their matches have to say, for it to
-// be measured by them.
-constexpr double kSaid = 0.3;
-
-// Whether those points that would tell how far the frame is along its weakest direction are the ones that do
-// not match: then its pose slides along that, as past lamps that are alike.
-bool slides(const IcpTracker::Alignment& alignment, const DepthFrame& frame) {
-  return alignment.smallest_eigenvalue <
-         kSaid * informationAlong(alignment.weakest, frame.levels.back(), alignment.T_M_D);
-}
-
-// Why the result is not to be trusted, or nothing.
-std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker::SystemPrior& prior,
-                       const IcpTrackingParameters& parameters) {
-  const IcpSystem& system = alignment.system;
-  // The map of a few frames shows little of what is far; it is asked about what it does show.
-  const double fraction = system.covered_points > 0.0 ? system.inliers / system.covered_points : 0.0;
-  const Pose T_prior_D = prior.T_M_D.inverse() * alignment.T_M_D;
-  std::ostringstream reason;
-  if (system.source_points < 1.0) {
-    reason << "no points with depth and normal";
-  } else if (system.inliers < 6.0) {
-    reason << "no point matches the view";
-  } else if (system.source_points < parameters.min_inliers) {
-    reason << "only " << system.source_points << " points with depth and normal";
-  } else if (system.inliers < parameters.min_inliers || fraction < parameters.min_inlier_fraction) {
-    reason << "only " << system.inliers << " inliers, " << std::lround(100.0 * fraction)
-           << " % of the points that meet the map";
-  } else if (!(system.rmse() <= parameters.max_rmse_m)) {
-    reason << "rmse " << system.rmse() << " m";
-  } else if (T_prior_D.translation().norm() > parameters.max_translation_m ||
-             rotationAngle(T_prior_D) > parameters.max_rotation_rad) {
-    reason << "jump of " << T_prior_D.translation().norm() << " m, " << rotationAngle(T_prior_D) << " rad";
-  } else if (alignment.free > kMostFree && !prior.information) {
-    reason << "the geometry seen leaves free " << alignment.free_directions << ", and nothing else helps";
-  }
-  return reason.str();
-}
-
-IcpTracker::SystemPrior toSystem(const MotionPrior& prior, const Pose& T_M_W) {
-  IcpTracker::SystemPrior result{orthonormalized(T_M_W * prior.T_W_D), std::nullopt};
-  if (!prior.covariance) return result;
-  const Matrix6d to_system = adjoint(T_M_W);
-  result.information = Matrix6d(to_system * *prior.covariance * to_system.transpose()).inverse();
-  return result;
-}
-
-struct Solution {
-  Vector6d twist;
-  Matrix6d covariance;
-};
-
-// The information that the matches hold. Neighbouring ones share their errors, so that `correlated` count as
-// one.
-IcpSystem weighed(const IcpSystem& system, double correlated) {
-  const double scale = 1.0 / (static_cast<double>(ICP_UNIT_SIGMA_M) * ICP_UNIT_SIGMA_M * correlated);
-  IcpSystem result = system;
-  result.hessian *= scale;
-  result.gradient *= scale;
-  return result;
-}
-
-Solution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const IcpTracker::SystemPrior& prior,
-               double correlated) {
-  const IcpSystem system = weighed(analysis.constrained(), correlated);
-  const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
-  if (!prior.information)
-    return {analysis.solve(deviation), (system.hessian + kGuessInformation * Matrix6d::Identity()).inverse()};
-  const Matrix6d information = system.hessian + *prior.information;
-  const Vector6d gradient = system.gradient + *prior.information * deviation;
-  return {information.ldlt().solve(-gradient), information.inverse()};
-}
-
-// How far the solution of geometry alone is from the prior (TrackingResult::prior_sigmas), from the pose that
-// balances both: the distances of that from either add up.
-double distanceFromPrior(const DegeneracyAnalysis& analysis, const Pose& T_M_D,
-                         const IcpTracker::SystemPrior& prior, double correlated) {
-  if (!prior.information || analysis.freeDirections() == 6) return 0.0;
-  const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
-  const Vector6d pull = *prior.information * deviation;
-  const Matrix6d geometry = weighed(analysis.constrained(), correlated).hessian;
-  const double squared =
-      deviation.dot(pull) + pull.dot(geometry.completeOrthogonalDecomposition().solve(pull));
-  return std::sqrt(std::max(squared, 0.0) / (6 - analysis.freeDirections()));
-}
 
 // A step is of use as far as matches reach: no point at the box's border is to move farther than their gate.
 Vector6d limited(const Vector6d& twist, const MatchGates& gates, const Eigen::AlignedBox3d& box) {
@@ -175,7 +60,7 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
     if (alignment.system.inliers < 6.0) return false;
     const IcpSystem& system = alignment.system;
     const DegeneracyAnalysis analysis(system, level == 0 ? system.structure : system.hessian, box, threshold);
-    const Solution solution = solve(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
+    const IcpSolution solution = solve(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
     const Vector6d step = limited(solution.twist, gates, box);
     alignment.T_M_D = poseFromTwist(step) * alignment.T_M_D;
     alignment.covariance = solution.covariance;

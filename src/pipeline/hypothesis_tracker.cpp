@@ -17,6 +17,7 @@ constexpr double kWellExplained = 0.7;   // of a frame by a map of few frames, s
 constexpr double kLeastExplained = 0.3;  // of a frame by a map of few frames, else it is lost
 constexpr double kWorseMatches = 0.85;   // than usual, from which on the frame is lost
 constexpr double kDisagreement = 4.0;    // between prior and depth, in standard deviations
+constexpr double kAgreement = 2.0;       // the same, up to which one confirms the other
 // A hypothesis wins over the best one before it if the map explains so much more by it, from as many inliers
 // or so.
 constexpr double kClearlyMore = 1.03;
@@ -81,8 +82,8 @@ TrackingResult HypothesisTracker::track(const DepthFrame& frame, const ModelView
     best.dropped_prior = first.prior;
     best.prior_sigmas = first.prior_sigmas;
   }
-  const bool is_unexplained = !isLost(best) && best.explained < explainedBy(kLeastExplained, kUnexplained);
-  return is_unexplained ? lost(std::move(best)) : orLost(std::move(best));
+  const bool is_unexplained = best.explained < explainedBy(kLeastExplained, kUnexplained);
+  return is_unexplained && !isConfirmed(best, prior) ? lost(std::move(best)) : orLost(std::move(best));
 }
 
 TrackingResult HypothesisTracker::search(const DepthFrame& frame, const ModelView& view,
@@ -93,7 +94,7 @@ TrackingResult HypothesisTracker::search(const DepthFrame& frame, const ModelVie
 
 TrackingResult HypothesisTracker::orStillLost(TrackingResult result) const {
   const bool is_explained = result.explained >= explainedBy(kLeastExplained, kFoundAgain);
-  return isLost(result) || is_explained ? result : lost(std::move(result));
+  return is_explained ? result : lost(std::move(result));
 }
 
 void HypothesisTracker::accept(const TrackingResult& result) {
@@ -115,15 +116,21 @@ bool HypothesisTracker::isConvincing(const TrackingResult& result) const {
          result.explained >= explainedBy(kWellExplained, kLessExplained);
 }
 
+bool HypothesisTracker::isConfirmed(const TrackingResult& result, const MotionPrior& prior) const {
+  return usual_.frames < kFewFrames && prior.covariance && result.prior == prior.origin &&
+         result.prior_sigmas < kAgreement;
+}
+
 bool HypothesisTracker::fitsAsUsual(const TrackingResult& result) const {
   return !isLost(result) && result.match_quality >= kWorseMatches * usual_.match_quality;
 }
 
 TrackingResult HypothesisTracker::orLost(TrackingResult result) const {
-  return isLost(result) || fitsAsUsual(result) ? result : lost(std::move(result));
+  return fitsAsUsual(result) ? result : lost(std::move(result));
 }
 
 TrackingResult HypothesisTracker::lost(TrackingResult result) const {
+  if (isLost(result)) return result;
   char reason[300];
   std::snprintf(
       reason, sizeof(reason),

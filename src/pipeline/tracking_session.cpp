@@ -1,22 +1,21 @@
 #include "depth_fusion/pipeline/tracking_session.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/depth_range.h"
-#include "pipeline/search_poses.h"
 
 namespace depth_fusion {
 namespace {
 
 constexpr char kStart[] = "start";
+constexpr char kWhereExpected[] =
+    "; it begins where the sensor is expected, which nothing measures: poses of before are of another world";
+constexpr int kAllDirections = 6;
 constexpr char kGuessed[] = "; nothing measures that, and the pose stays where it was expected";
 constexpr int kFramesAtGiven = 10;  // in which the sensor is searched for at a pose that was given
-
-constexpr int kPlacesInAFrame = 4;  // that a lost sensor is searched for in, farther about its last pose
 
 // Whether frames are compensated for the sensor's motion.
 bool bendsFrames(const PreprocessingParameters& parameters) {
@@ -30,19 +29,6 @@ std::string guessedTooLong(const GuessedMotion& motion) {
       "; since it was measured the sensor may have moved by %.0f mm and %.1f degrees, too far to go on",
       1e3 * motion.m(), motion.rad() * 180.0 / CV_PI);
   return reason;
-}
-
-// A frame whose depth says nothing of where it is.
-TrackingResult lostWithout(const GuessedMotion& motion) {
-  char reason[300];
-  std::snprintf(
-      reason, sizeof(reason),
-      "the sensor may have moved by %.1f m along what geometry leaves free: places there may look alike, "
-      "and only texture or a pose that is given can tell them apart",
-      motion.m());
-  TrackingResult result;
-  result.reason = reason;
-  return result;
 }
 
 }  // namespace
@@ -103,6 +89,11 @@ void TrackingSession::take(double stamp_s, FrameFeatures features, TrackingResul
   }
   given_.reset();
   found_ = {stamp_s, std::move(features), result, std::move(unless_fused)};
+  if (result.prior == kStart && !begins_anew_for_.empty()) {
+    result.status = TrackingStatus::kDegenerate;
+    result.guessed_directions = kAllDirections;
+    result.reason += kWhereExpected;
+  }
 }
 
 void TrackingSession::prepareAhead(const RgbdFrame& frame, const TexturedFrame& texture,
@@ -226,68 +217,6 @@ TrackingResult TrackingSession::trackUnbent(const RgbdFrame& frame, const Motion
   }
   result.dropped_prior = prior.origin;
   result.prior_sigmas = bent.prior_sigmas;
-  return result;
-}
-
-TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const FrameFeatures& features,
-                                           const TrackingResult& lost, StageTimers& timers) {
-  const StageTimers::Scope timer(timers, "relocalisation");
-  if (given_) {
-    TrackingResult result = searchAtGiven(timers);
-    if (result.status != TrackingStatus::kLost) return result;
-  }
-  for (const KeyframePtr& keyframe : relocaliser_.candidates(features)) {
-    const TextureOdometryResult motion = matcher_.match(keyframe->features, features, true);
-    if (!motion.found) continue;
-    TrackingResult result = trackFrom(motion.priorFrom(keyframe->T_W_D), timers);
-    if (result.status != TrackingStatus::kLost) return result;
-  }
-  if (motion_.isTracking()) return lost;
-  if (guessed_.isAnywhere()) return lostWithout(guessed_);
-  TrackingResult result = trackFrom(prior, timers);
-  std::vector<MotionPrior> starts = motion_.otherStarts();
-  const auto is_the_prior = [&](const MotionPrior& start) { return saysTheSame(start, prior); };
-  if (std::none_of(starts.begin(), starts.end(), is_the_prior)) starts.push_back(prior);
-  for (size_t i = 0; i < starts.size() && result.status == TrackingStatus::kLost; ++i)
-    result = searchAbout(starts[i], timers);
-  return result.status == TrackingStatus::kLost ? searchFarther(starts.front().T_W_D, timers) : result;
-}
-
-TrackingResult TrackingSession::searchFarther(const Pose& T_W_last, StageTimers& timers) {
-  const std::vector<Pose> poses = aboutLastSeen(T_W_last);
-  TrackingResult result;
-  for (int i = 0; i < kPlacesInAFrame && result.status == TrackingStatus::kLost; ++i)
-    result = searchAbout({poses[next_search_++ % poses.size()], std::nullopt, "search"}, timers);
-  return result;
-}
-
-TrackingResult TrackingSession::searchAbout(const MotionPrior& start, StageTimers& timers) {
-  return orStillLost(tracker_.search(*depth_, render_(start.T_W_D), start, timers));
-}
-
-TrackingResult TrackingSession::searchAtGiven(StageTimers& timers) {
-  TrackingResult best;
-  for (const Pose& T_W_D : aboutGiven(given_->T_W_D)) {
-    const TrackingResult result = searchAbout({T_W_D, std::nullopt, "given pose"}, timers);
-    if (result.status != TrackingStatus::kLost && result.explained > best.explained) best = result;
-  }
-  if (--given_->frames_left == 0) given_.reset();
-  return best;
-}
-
-TrackingResult TrackingSession::trackFrom(const MotionPrior& prior, StageTimers& timers) {
-  return orStillLost(tracker_.track(*depth_, render_(prior.T_W_D), prior, {}, timers));
-}
-
-TrackingResult TrackingSession::orStillLost(TrackingResult result) const {
-  result = tracker_.orStillLost(lostIfGuessed(std::move(result)));
-  if (result.status == TrackingStatus::kLost ||
-      result.inlier_fraction >= parameters_.relocalisation.min_inlier_fraction) {
-    return result;
-  }
-  result.status = TrackingStatus::kLost;
-  result.reason = "still lost: only " + std::to_string(std::lround(100.0 * result.inlier_fraction)) +
-                  " % of the points fit the map";
   return result;
 }
 

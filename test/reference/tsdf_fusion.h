@@ -69,7 +69,7 @@ struct Voxel {
 
 // Holds what a frame says of a voxel.
 struct Measurement {
-  enum { kNone, kHit, kFree } kind = kNone;
+  enum { kNone, kHit, kNoisyHit, kFree } kind = kNone;  // a noisy hit counts for voxels that are known
   double steps = 0.0;
   double sigma_m = 0.0;
   bool ambiguous = false;  // rounding may decide the pixel, or whether and how the voxel counts
@@ -142,9 +142,13 @@ inline Measurement measure(const View& view, const Pose& T_D_W, const MapParamet
   result.ambiguous = result.ambiguous || std::abs(result.steps + TSDF_MAX) < margin_steps ||
                      std::abs(result.steps - TSDF_MAX) < margin_steps ||
                      std::abs(result.steps - free_steps) < margin_steps;
-  if (result.steps < -TSDF_MAX) return result;
-  if (result.steps <= TSDF_MAX) result.kind = Measurement::kHit;
+  const double noisy_steps = 2.0 * steps_per_m * result.sigma_m;
+  result.ambiguous = result.ambiguous || (noisy_steps > TSDF_MAX - margin_steps &&
+                                          std::abs(std::abs(result.steps) - noisy_steps) < margin_steps);
+  if (std::abs(result.steps) <= noisy_steps) result.kind = Measurement::kNoisyHit;
+  if (std::abs(result.steps) <= TSDF_MAX) result.kind = Measurement::kHit;
   if (result.steps > free_steps) result.kind = Measurement::kFree;
+  result.steps = std::clamp(result.steps, -1.0 * TSDF_MAX, 1.0 * TSDF_MAX);
   return result;
 }
 
@@ -187,6 +191,7 @@ inline FilterStep filterStep(const Voxel& old, double variance_m2, const TsdfFus
 
 inline Voxel fuse(const Voxel& old, const Measurement& measured, const TsdfFusionParameters& fusion) {
   if (measured.kind == Measurement::kNone) return old;
+  if (measured.kind == Measurement::kNoisyHit && !old.known) return old;
   Voxel result = old;
   if (measured.kind == Measurement::kFree) {
     const double kept = 1.0 - fusion.free_space_rate;

@@ -86,7 +86,8 @@ TEST_F(Resets, BeginAMapAnewThatNothingFits) {
     ASSERT_NE(status, nullptr);
     if (status->state != TrackerStatus::LOST) break;
   }
-  ASSERT_NE(status->state, TrackerStatus::LOST) << status->reason;
+  ASSERT_EQ(status->state, TrackerStatus::DEGENERATE) << status->reason;
+  EXPECT_EQ(status->guessed_directions, 6);
   EXPECT_NE(status->reason.find("a map begins anew"), std::string::npos) << status->reason;
   const auto of_map = map_status_.awaitStamp(status->header.stamp);
   ASSERT_NE(of_map, nullptr);

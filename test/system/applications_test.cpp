@@ -1,6 +1,8 @@
 // The apps as a user runs them, one after the other.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "common/io/text_file.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "recording/timed_files.h"
@@ -149,6 +151,37 @@ TEST_F(Applications, options_reach_the_parameters_and_win_over_the_file) {
   EXPECT_EQ(parameters["map/pool_mib"], 64);
   EXPECT_EQ(parameters["tsdf_fusion/max_weight"], 100.0);
   EXPECT_EQ(parameters["preprocessing/max_range_m"], 3.0);
+}
+
+// Another place after three frames: the map of those begins anew, and their poses are of no world any more.
+TEST_F(Applications, poses_of_a_map_that_is_gone_are_left_out) {
+  const std::string another = inFolder("another"), both = inFolder("both");
+  ASSERT_EQ(runApp("simulate", {"--output", another, "--scene", "cylinder", "--frames", "16"}).status, 0);
+  std::filesystem::create_directory(both);
+  std::filesystem::copy(room() + "/camera.yaml", both + "/camera.yaml");
+  for (const std::string list : {"/depth.txt", "/rgb.txt"}) {
+    std::vector<TimedFile> files = readTimedFiles(room() + list);
+    files.resize(3);
+    for (const TimedFile& file : readTimedFiles(another + list))
+      files.push_back({file.stamp_s + 10.0, file.path});
+    std::string lines;
+    for (const TimedFile& file : files) {
+      lines += std::to_string(file.stamp_s) + " " +
+               std::filesystem::path(file.path).lexically_relative(both).string() + "\n";
+    }
+    writeText(both + list, lines);
+  }
+  writeText(inFolder("young.yaml"), "relocalisation: {give_up_after_frames: 4}\n");
+  const AppRun run = runApp("reconstruct", {"--input", both, "--output", inFolder("of_both"), "--no-mesh",
+                                            "--params", inFolder("young.yaml")});
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.output.find("another world; 3 of them count as lost"), std::string::npos) << run.output;
+  const Trajectory trajectory = readTrajectory(inFolder("of_both") + "/trajectory.txt");
+  const Json frames = readReport(inFolder("of_both"))["frames"];
+  ASSERT_EQ(trajectory.size(), frames["tracked"].get<size_t>());
+  EXPECT_EQ(trajectory.size() + frames["lost"].get<size_t>(), 19u);
+  EXPECT_EQ(trajectory.size(), 12u);
+  EXPECT_GT(trajectory.front().stamp_s, 10.0);
 }
 
 TEST_F(Applications, render_draws_the_mesh) {

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/recording/trajectory_file.h"
@@ -141,6 +142,57 @@ TEST_F(Desk, is_found_again_after_a_blackout_and_a_jump) {
   EXPECT_LT(tracked.lost.back(), 540u) << "back within 10 frames";
   EXPECT_EQ(tracked.updated_while_lost, 0u);
   EXPECT_LE(tracked.error.ate_m.rmse, 0.011);
+}
+
+// A recording from another frame on, its colour through JPEG.
+class LaterAndCompressed : public Recording {
+ public:
+  LaterAndCompressed(std::unique_ptr<Recording> recording, size_t first, int jpeg_quality)
+      : recording_(std::move(recording)), jpeg_quality_(jpeg_quality) {
+    while (first-- > 0) recording_->next();
+  }
+  std::optional<RgbdFrame> next() override {
+    std::optional<RgbdFrame> frame = recording_->next();
+    if (!frame) return frame;
+    std::vector<uchar> bytes;
+    cv::imencode(".jpg", frame->color, bytes, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality_});
+    frame->color = cv::imdecode(bytes, cv::IMREAD_COLOR);
+    return frame;
+  }
+  size_t frameCount() const override { return recording_->frameCount(); }
+  std::string description() const override { return recording_->description(); }
+
+ private:
+  std::unique_ptr<Recording> recording_;
+  const int jpeg_quality_;
+};
+
+struct OfficeStart {
+  size_t first;
+  bool texture;
+  int jpeg_quality;
+};
+
+// A rendered office, whose ceiling has rows of lamps that are alike.
+class Office : public testing::TestWithParam<OfficeStart> {};
+
+INSTANTIATE_TEST_SUITE_P(Starts, Office,
+                         testing::Values(OfficeStart{0, true, 95}, OfficeStart{0, true, 80},
+                                         OfficeStart{0, true, 50}, OfficeStart{2, true, 95},
+                                         OfficeStart{5, true, 80}, OfficeStart{8, true, 50},
+                                         OfficeStart{3, false, 95}, OfficeStart{8, false, 95}));
+
+TEST_P(Office, does_not_mislead) {
+  const std::string folder = realDataFolder("icl_office_kt0");
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  RecordingOptions options;
+  readCamera(folder + "/camera.yaml", options);
+  PipelineParameters parameters;
+  parameters.texture_odometry.enabled = GetParam().texture;
+  LaterAndCompressed recording(openFolder(folder, options), GetParam().first, GetParam().jpeg_quality);
+  const Tracked tracked = track(recording, readPoses(folder), parameters);
+  EXPECT_TRUE(tracked.lost.empty());
+  EXPECT_LE(tracked.error.ate_m.rmse, 0.0027);
 }
 
 }  // namespace

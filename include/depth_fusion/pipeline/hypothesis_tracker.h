@@ -46,9 +46,13 @@ class HypothesisTracker {
   double explainedBy(double few_frames, double of_usual) const;
   // Nothing speaks for looking elsewhere.
   bool isConvincing(const TrackingResult& result) const;
+  // The map is of few frames, which may explain little of what is far, but depth agrees with a measured
+  // prior.
+  bool isConfirmed(const TrackingResult& result, const MotionPrior& prior) const;
   // The matches fit as well as usual.
   bool fitsAsUsual(const TrackingResult& result) const;
   TrackingResult orLost(TrackingResult result) const;
+  // The result, which is lost for its pose may be a wrong one, if it is not lost already.
   TrackingResult lost(TrackingResult result) const;
 
   IcpTracker tracker_;

@@ -19,12 +19,7 @@ TrackingInput simulated(const std::string& name, const std::string& scene, doubl
   options.scene = scene;
   options.linear_speed_m_s = linear_speed_m_s;
   options.turn_rate_deg_s = turn_rate_deg_s;
-  TrackingInput input;
-  input.name = name;
-  input.open = [options] { return std::make_unique<SimulatedRecording>(options); };
-  const SimulatedRecording recording(options);
-  for (int i = 0; i < options.frames; ++i) input.truth.push_back(recording.poseOf(i));
-  return input;
+  return simulatedInput(name, options);
 }
 
 TrackingInput recorded(const std::string& name, const std::string& folder, const std::string& params,
@@ -58,28 +53,6 @@ TrackingInput withInterruption(TrackingInput input, const std::string& what,
   return input;
 }
 
-// The real and rendered recordings that are there.
-std::vector<TrackingInput> recordedInputs(const TrackingBenchmark& options) {
-  struct Known {
-    std::string name, params, camera;
-  };
-  const std::string data = dataFolder(options.data);
-  const std::string kinect = options.cfg + "/kinect_v1.yaml";
-  std::vector<TrackingInput> inputs;
-  for (const Known& known :
-       {Known{"tum_fr1_xyz", kinect, options.cfg + "/cameras/tum_freiburg1.yaml"},
-        Known{"redkitchen", kinect, ""}, Known{"icl_office_kt0", "", data + "/icl_office_kt0/camera.yaml"}}) {
-    const std::string folder = data + "/" + known.name;
-    if (std::filesystem::exists(folder)) {
-      inputs.push_back(recorded(known.name, folder, known.params, known.camera));
-      inputs.back().truth_is_estimate = known.name == "redkitchen";
-    } else {
-      std::cout << "there is no " << folder << "; see --data" << std::endl;
-    }
-  }
-  return inputs;
-}
-
 std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
   const TrackingInput white_room = simulated("white_room", "white_room");
   std::vector<TrackingInput> inputs = {simulated("wall", "wall"),
@@ -95,20 +68,6 @@ std::vector<TrackingInput> allInputs(const TrackingBenchmark& options) {
                                  withInterruption(input, "_jump", {0, 100})});
   }
   return inputs;
-}
-
-std::vector<TrackingInput> chosenOf(const std::vector<TrackingInput>& all, const TrackingBenchmark& options) {
-  if (options.inputs.empty()) return all;
-  std::vector<TrackingInput> chosen;
-  for (const std::string& name : options.inputs) {
-    const auto input =
-        std::find_if(all.begin(), all.end(), [&](const TrackingInput& i) { return i.name == name; });
-    std::string names;
-    for (const TrackingInput& known : all) names += (names.empty() ? "" : ", ") + known.name;
-    check(input != all.end(), "there is no input '" + name + "'; the inputs are: " + names);
-    chosen.push_back(*input);
-  }
-  return chosen;
 }
 
 }  // namespace
@@ -136,16 +95,52 @@ std::vector<RgbdFrame> framesOf(const TrackingInput& input) {
   return frames;
 }
 
-std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options) {
-  return chosenOf(allInputs(options), options);
+TrackingInput simulatedInput(const std::string& name, const SimulationOptions& options) {
+  TrackingInput input;
+  input.name = name;
+  input.open = [options] { return std::make_unique<SimulatedRecording>(options); };
+  const SimulatedRecording recording(options);
+  for (int i = 0; i < options.frames; ++i) input.truth.push_back(recording.poseOf(i));
+  return input;
 }
 
-std::vector<TrackingInput> startInputs(const TrackingBenchmark& options) {
-  std::vector<TrackingInput> inputs = {
-      simulated("wall", "wall"), simulated("floor_wall", "floor_wall"), simulated("cylinder", "cylinder"),
-      simulated("white_room", "white_room"), simulated("room_fast", "room", 0.5, 60.0)};
-  for (TrackingInput& input : recordedInputs(options)) inputs.push_back(std::move(input));
-  return chosenOf(inputs, options);
+std::vector<TrackingInput> recordedInputs(const TrackingBenchmark& options) {
+  struct Known {
+    std::string name, params, camera;
+  };
+  const std::string data = dataFolder(options.data);
+  const std::string kinect = options.cfg + "/kinect_v1.yaml";
+  std::vector<TrackingInput> inputs;
+  for (const Known& known :
+       {Known{"tum_fr1_xyz", kinect, options.cfg + "/cameras/tum_freiburg1.yaml"},
+        Known{"redkitchen", kinect, ""}, Known{"icl_office_kt0", "", data + "/icl_office_kt0/camera.yaml"}}) {
+    const std::string folder = data + "/" + known.name;
+    if (std::filesystem::exists(folder)) {
+      inputs.push_back(recorded(known.name, folder, known.params, known.camera));
+      inputs.back().truth_is_estimate = known.name == "redkitchen";
+    } else {
+      std::cout << "there is no " << folder << "; see --data" << std::endl;
+    }
+  }
+  return inputs;
+}
+
+std::vector<TrackingInput> chosenOf(const std::vector<TrackingInput>& all, const TrackingBenchmark& options) {
+  if (options.inputs.empty()) return all;
+  std::vector<TrackingInput> chosen;
+  for (const std::string& name : options.inputs) {
+    const auto input =
+        std::find_if(all.begin(), all.end(), [&](const TrackingInput& i) { return i.name == name; });
+    std::string names;
+    for (const TrackingInput& known : all) names += (names.empty() ? "" : ", ") + known.name;
+    check(input != all.end(), "there is no input '" + name + "'; the inputs are: " + names);
+    chosen.push_back(*input);
+  }
+  return chosen;
+}
+
+std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options) {
+  return chosenOf(allInputs(options), options);
 }
 
 }  // namespace depth_fusion

@@ -5,6 +5,7 @@
 #include "apps/benchmark/tracking.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "tools/simulation/altered_recording.h"
+#include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 
@@ -24,10 +25,14 @@ std::string dataFolder(const std::string& chosen);
 // Returns the simulated room, without its truth.
 TrackingInput roomInput(int frames);
 
-// The inputs that options.inputs names, or all. Throws Error for a name that is not known.
+TrackingInput simulatedInput(const std::string& name, const SimulationOptions& options);
+// The real and rendered recordings that are there.
+std::vector<TrackingInput> recordedInputs(const TrackingBenchmark& options);
+// Those of `all` that options.inputs names, or all. Throws Error for a name that is not known.
+std::vector<TrackingInput> chosenOf(const std::vector<TrackingInput>& all, const TrackingBenchmark& options);
+
+// The inputs of the table, chosen alike.
 std::vector<TrackingInput> trackingInputs(const TrackingBenchmark& options);
-// The inputs for random starts, chosen alike.
-std::vector<TrackingInput> startInputs(const TrackingBenchmark& options);
 
 // Reads all the frames at once, for several runs.
 std::vector<RgbdFrame> framesOf(const TrackingInput& input);

@@ -54,7 +54,6 @@ class Run {
   std::unique_ptr<Recording> recording_;
   Trajectory poses_;
   CameraIntrinsics camera_;
-  std::vector<double> ways_m_;  // of the sensor, up to each tracked frame
   std::unique_ptr<ReconstructionPipeline> pipeline_;
   std::unique_ptr<MapSaver> saver_;  // null: the map is saved nowhere
 };
@@ -96,8 +95,8 @@ void Run::fuseRecording() {
   while (frame && !interrupted) {
     log_.begin(*frame);
     std::optional<RgbdFrame> next = mayReadOn() ? nextFrame() : std::nullopt;
-    log_.note(*frame, fuse(*frame, next ? &*next : nullptr));
-    if (pipeline_->loops() != nullptr) ways_m_.resize(log_.trajectory().size(), pipeline_->loops()->way_m());
+    const FrameResult result = fuse(*frame, next ? &*next : nullptr);
+    log_.note(*frame, result, pipeline_->loops() != nullptr ? pipeline_->loops()->way_m() : 0.0);
     if (const auto depth = pipeline_->depth()) log_.noteNoise(options_.parameters.depth_sensor, *depth);
     showProgress(false);
     frame = std::move(next);
@@ -158,7 +157,7 @@ FrameResult Run::fuse(const RgbdFrame& frame, const RgbdFrame* next) {
 }
 
 void Run::applyLoops() {
-  const LoopResults loops = resultsOf(*pipeline_->loops(), log_.trajectory(), ways_m_);
+  const LoopResults loops = resultsOf(*pipeline_->loops(), log_.trajectory(), log_.ways_m());
   const std::string problem = pipeline_->loops()->problem();
   if (!problem.empty()) log_.complain(problem);
   writeText(options_.output + "/loops.csv", loops.table);

@@ -29,11 +29,12 @@ void RunLog::begin(const RgbdFrame& frame) {
     warn(frame.stamp_problem + ", and so with others like it");
 }
 
-void RunLog::note(const RgbdFrame& frame, const FrameResult& result) {
+void RunLog::note(const RgbdFrame& frame, const FrameResult& result, double way_m) {
   if (result.tracking.status == TrackingStatus::kLost) return noteLoss(result.tracking.reason);
   noteTracked(result.tracking);
   if (result.color.fused) ++counts_.colored;
   trajectory_.push_back({frame.stamp_s, result.tracking.T_W_D});
+  ways_m_.push_back(way_m);
   noteFusion(result.fusion);
 }
 
@@ -41,12 +42,21 @@ void RunLog::noteTracked(const TrackingResult& tracking) {
   if (std::exchange(is_searched_for_, false)) say("found in the map");
   if (std::exchange(is_lost_, false))
     say("tracking again after " + std::to_string(counts_.losses.back().frames) + " lost frames");
+  if (tracking.prior == "start") noteBegin(tracking.reason);
   ++counts_.tracked;
   const bool degenerate = tracking.status == TrackingStatus::kDegenerate;
   if (degenerate) ++counts_.degenerate;
   status_ = degenerate ? "degenerate: " + tracking.reason : "tracking";
-  if (!degenerate && !tracking.reason.empty()) say(tracking.reason);
   noteDoubt(tracking.map_doubt);
+}
+
+void RunLog::noteBegin(const std::string& reason) {
+  if (trajectory_.empty()) return;
+  say(reason + "; " + std::to_string(trajectory_.size()) + " of them count as lost");
+  counts_.lost += trajectory_.size();
+  counts_.tracked = counts_.degenerate = counts_.colored = 0;
+  trajectory_.clear();
+  ways_m_.clear();
 }
 
 void RunLog::noteLoss(const std::string& reason) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "apps/reconstruct/report.h"
 #include "apps/reconstruct/run.h"
@@ -18,6 +19,8 @@ class RunLog {
   const RunCounts& counts() const { return counts_; }
   // The poses of the tracked frames.
   const Trajectory& trajectory() const { return trajectory_; }
+  // The sensor's way up to each of them.
+  const std::vector<double>& ways_m() const { return ways_m_; }
   // Whether anything was complained of.
   bool failed() const { return failed_; }
 
@@ -25,7 +28,7 @@ class RunLog {
   void begin(const RgbdFrame& frame);
   // The sensor is searched for in a map that was loaded.
   void searchInMap() { is_searched_for_ = true; }
-  void note(const RgbdFrame& frame, const FrameResult& result);
+  void note(const RgbdFrame& frame, const FrameResult& result, double way_m);
   // Says once if the noise is not what the sensor model says.
   void noteNoise(const DepthSensorParameters& sensor, const DepthFrame& depth);
   void noteUnreadable(const std::string& why);
@@ -43,6 +46,8 @@ class RunLog {
 
  private:
   void noteLoss(const std::string& reason);
+  // A map begins. Poses of one before it, which is gone, have no place in it.
+  void noteBegin(const std::string& reason);
   void noteTracked(const TrackingResult& tracking);
   void noteFusion(const FusionResult& fusion);
   // Says once that the map may be wrong.
@@ -57,6 +62,7 @@ class RunLog {
   const std::string input_;
   RunCounts counts_;
   Trajectory trajectory_;
+  std::vector<double> ways_m_;
   std::string status_;            // of the last frame
   bool is_lost_ = false;          // the frame before
   bool is_searched_for_ = false;  // in a map that was loaded

@@ -47,8 +47,10 @@ class FusedRoom {
       textures_.push_back(with_texture ? odometry.texture(frame, timers_) : withoutTexture("switched off"));
   }
 
-  TrackingResult step(int i, const Pose& start = Pose::Identity()) {
-    return session_.step(roomFrames()[i], textures_[i], view_, timers_, start);
+  TrackingResult step(int i, const Pose& start = Pose::Identity()) { return step(i, roomFrames()[i], start); }
+  // The frame with other depth.
+  TrackingResult step(int i, const RgbdFrame& frame, const Pose& start = Pose::Identity()) {
+    return session_.step(frame, textures_[i], view_, timers_, start);
   }
   void prepareAhead(int i) { session_.prepareAhead(roomFrames()[i], textures_[i], timers_); }
   void fuse(int i, const Pose& T_W_D) {
@@ -167,6 +169,41 @@ TEST_P(TrackingSessionTest, ASensorThatWasMovedWhileItWasLostIsSearchedFor) {
   const TrackingResult result = room_.step(1);
   ASSERT_NE(result.status, TrackingStatus::kLost) << result.reason;
   EXPECT_LT((trueMotion(0, 1).inverse() * result.T_W_D).translation().norm(), 0.015);
+}
+
+// In this share of the image, from the left, everything has come nearer.
+RgbdFrame withThingsNearer(RgbdFrame frame, double share) {
+  frame.depth = frame.depth.clone();
+  cv::Mat things = frame.depth(cv::Rect(0, 0, cvRound(share * kCamera.width), kCamera.height));
+  things *= 0.6;
+  return frame;
+}
+
+// The map of one frame explains less than three tenths of the next.
+TEST_P(TrackingSessionTest, LittleSufficesForAYoungMapIfTextureConfirmsIt) {
+  room_.fuse(0, room_.step(0).T_W_D);
+  room_.session().conclude(true);
+  const TrackingResult result = room_.step(1, withThingsNearer(roomFrames()[1], 0.69));
+  EXPECT_LT(result.explained, 0.3);
+  if (GetParam()) {
+    ASSERT_EQ(result.status, TrackingStatus::kTracking) << result.reason;
+    EXPECT_LT((trueMotion(0, 1).inverse() * result.T_W_D).translation().norm(), 0.015);
+  } else {
+    EXPECT_EQ(result.status, TrackingStatus::kLost);
+  }
+}
+
+// Something new stands in a part of the view: what is left of what is usual has to suffice.
+TEST_P(TrackingSessionTest, ALostSensorIsFoundAlsoWhereNotAllIsAsItWas) {
+  const int last = kFrames - 1;
+  for (int i = 0; i < last; ++i) {
+    room_.fuse(i, room_.step(i).T_W_D);
+    room_.session().conclude(true);
+  }
+  room_.session().lose();
+  const TrackingResult result = room_.step(last, withThingsNearer(roomFrames()[last], 0.17));
+  ASSERT_NE(result.status, TrackingStatus::kLost) << result.reason;
+  EXPECT_LT((trueMotion(0, last).inverse() * result.T_W_D).translation().norm(), 0.015);
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutTexture, TrackingSessionTest, testing::Bool());

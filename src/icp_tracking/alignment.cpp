@@ -1,0 +1,95 @@
+#include "icp_tracking/alignment.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "icp_tracking/frame_geometry.h"
+#include "shared/types.h"
+
+namespace depth_fusion {
+namespace {
+
+// No surface leaves more directions free than a plane does, or a sphere.
+constexpr int kMostFree = 3;
+// The least part of what the frame's points would say of a motion that their matches have to say, for it to
+// be measured by them.
+constexpr double kSaid = 0.3;
+
+// The information that the matches hold, of which `correlated` count as one.
+IcpSystem weighed(const IcpSystem& system, double correlated) {
+  const double scale = 1.0 / (static_cast<double>(ICP_UNIT_SIGMA_M) * ICP_UNIT_SIGMA_M * correlated);
+  IcpSystem result = system;
+  result.hessian *= scale;
+  result.gradient *= scale;
+  return result;
+}
+
+}  // namespace
+
+IcpTracker::SystemPrior toSystem(const MotionPrior& prior, const Pose& T_M_W) {
+  IcpTracker::SystemPrior result{orthonormalized(T_M_W * prior.T_W_D), std::nullopt};
+  if (!prior.covariance) return result;
+  const Matrix6d to_system = adjoint(T_M_W);
+  result.information = Matrix6d(to_system * *prior.covariance * to_system.transpose()).inverse();
+  return result;
+}
+
+IcpSolution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const IcpTracker::SystemPrior& prior,
+                  double correlated) {
+  const IcpSystem system = weighed(analysis.constrained(), correlated);
+  const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
+  if (!prior.information)
+    return {analysis.solve(deviation), (system.hessian + kGuessInformation * Matrix6d::Identity()).inverse()};
+  const Matrix6d information = system.hessian + *prior.information;
+  const Vector6d gradient = system.gradient + *prior.information * deviation;
+  return {information.ldlt().solve(-gradient), information.inverse()};
+}
+
+double distanceFromPrior(const DegeneracyAnalysis& analysis, const Pose& T_M_D,
+                         const IcpTracker::SystemPrior& prior, double correlated) {
+  if (!prior.information || analysis.freeDirections() == 6) return 0.0;
+  const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
+  const Vector6d pull = *prior.information * deviation;
+  const Matrix6d geometry = weighed(analysis.constrained(), correlated).hessian;
+  const double squared =
+      deviation.dot(pull) + pull.dot(geometry.completeOrthogonalDecomposition().solve(pull));
+  return std::sqrt(std::max(squared, 0.0) / (6 - analysis.freeDirections()));
+}
+
+bool slides(const IcpTracker::Alignment& alignment, const DepthFrame& frame) {
+  return alignment.smallest_eigenvalue <
+         kSaid * informationAlong(alignment.weakest, frame.levels.back(), alignment.T_M_D);
+}
+
+std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker::SystemPrior& prior,
+                       const IcpTrackingParameters& parameters) {
+  const IcpSystem& system = alignment.system;
+  // The map of a few frames shows little of what is far; it is asked about what it does show.
+  const double fraction = system.covered_points > 0.0 ? system.inliers / system.covered_points : 0.0;
+  const Pose T_prior_D = prior.T_M_D.inverse() * alignment.T_M_D;
+  std::ostringstream reason;
+  if (system.source_points < 1.0) {
+    reason << "no points with depth and normal";
+  } else if (system.inliers < 6.0) {
+    reason << "no point matches the view";
+  } else if (system.source_points < parameters.min_inliers) {
+    reason << "only " << system.source_points << " points with depth and normal";
+  } else if (system.inliers < parameters.min_inliers || fraction < parameters.min_inlier_fraction) {
+    reason << "only " << system.inliers << " inliers, " << std::lround(100.0 * fraction)
+           << " % of the points that meet the map";
+  } else if (!(system.rmse() <= parameters.max_rmse_m)) {
+    reason << "rmse " << system.rmse() << " m";
+  } else if (T_prior_D.translation().norm() > parameters.max_translation_m ||
+             rotationAngle(T_prior_D) > parameters.max_rotation_rad) {
+    reason << "jump of " << T_prior_D.translation().norm() << " m, " << rotationAngle(T_prior_D) << " rad";
+  } else if (alignment.free > kMostFree && !prior.information) {
+    reason << "the geometry seen leaves free " << alignment.free_directions << ", and nothing else helps";
+  }
+  return reason.str();
+}
+
+}  // namespace depth_fusion

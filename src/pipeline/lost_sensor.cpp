@@ -1,0 +1,92 @@
+// How the conductor of tracking finds a frame that does not fit the view of the last one.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "depth_fusion/pipeline/tracking_session.h"
+#include "pipeline/search_poses.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr int kPlacesInAFrame = 4;  // that a lost sensor is searched for in, farther about its last pose
+
+// A frame whose depth says nothing of where it is.
+TrackingResult lostWithout(const GuessedMotion& motion) {
+  char reason[300];
+  std::snprintf(
+      reason, sizeof(reason),
+      "the sensor may have moved by %.1f m along what geometry leaves free: places there may look alike, "
+      "and only texture or a pose that is given can tell them apart",
+      motion.m());
+  TrackingResult result;
+  result.reason = reason;
+  return result;
+}
+
+}  // namespace
+
+TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const FrameFeatures& features,
+                                           const TrackingResult& lost, StageTimers& timers) {
+  const StageTimers::Scope timer(timers, "relocalisation");
+  if (given_) {
+    TrackingResult result = searchAtGiven(timers);
+    if (result.status != TrackingStatus::kLost) return result;
+  }
+  for (const KeyframePtr& keyframe : relocaliser_.candidates(features)) {
+    const TextureOdometryResult motion = matcher_.match(keyframe->features, features, true);
+    if (!motion.found) continue;
+    TrackingResult result = trackFrom(motion.priorFrom(keyframe->T_W_D), timers);
+    if (result.status != TrackingStatus::kLost) return result;
+  }
+  if (motion_.isTracking()) return lost;
+  if (guessed_.isAnywhere()) return lostWithout(guessed_);
+  TrackingResult result = trackFrom(prior, timers);
+  std::vector<MotionPrior> starts = motion_.otherStarts();
+  const auto is_the_prior = [&](const MotionPrior& start) { return saysTheSame(start, prior); };
+  if (std::none_of(starts.begin(), starts.end(), is_the_prior)) starts.push_back(prior);
+  for (size_t i = 0; i < starts.size() && result.status == TrackingStatus::kLost; ++i)
+    result = searchAbout(starts[i], timers);
+  return result.status == TrackingStatus::kLost ? searchFarther(starts.front().T_W_D, timers) : result;
+}
+
+TrackingResult TrackingSession::searchFarther(const Pose& T_W_last, StageTimers& timers) {
+  const std::vector<Pose> poses = aboutLastSeen(T_W_last);
+  TrackingResult result;
+  for (int i = 0; i < kPlacesInAFrame && result.status == TrackingStatus::kLost; ++i)
+    result = searchAbout({poses[next_search_++ % poses.size()], std::nullopt, "search"}, timers);
+  return result;
+}
+
+TrackingResult TrackingSession::searchAbout(const MotionPrior& start, StageTimers& timers) {
+  return orStillLost(tracker_.search(*depth_, render_(start.T_W_D), start, timers));
+}
+
+TrackingResult TrackingSession::searchAtGiven(StageTimers& timers) {
+  TrackingResult best;
+  for (const Pose& T_W_D : aboutGiven(given_->T_W_D)) {
+    const TrackingResult result = searchAbout({T_W_D, std::nullopt, "given pose"}, timers);
+    if (result.status != TrackingStatus::kLost && result.explained > best.explained) best = result;
+  }
+  if (--given_->frames_left == 0) given_.reset();
+  return best;
+}
+
+TrackingResult TrackingSession::trackFrom(const MotionPrior& prior, StageTimers& timers) {
+  return orStillLost(tracker_.track(*depth_, render_(prior.T_W_D), prior, {}, timers));
+}
+
+TrackingResult TrackingSession::orStillLost(TrackingResult result) const {
+  result = tracker_.orStillLost(lostIfGuessed(std::move(result)));
+  if (result.status == TrackingStatus::kLost ||
+      result.inlier_fraction >= parameters_.relocalisation.min_inlier_fraction) {
+    return result;
+  }
+  result.status = TrackingStatus::kLost;
+  result.reason = "still lost: only " + std::to_string(std::lround(100.0 * result.inlier_fraction)) +
+                  " % of the points fit the map";
+  return result;
+}
+
+}  // namespace depth_fusion
