@@ -1,6 +1,7 @@
 // What becomes of the frames of a run: the account for its report, and what is said of it on the console.
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "apps/reconstruct/report.h"
@@ -28,13 +29,16 @@ class RunLog {
   void note(const RgbdFrame& frame, const FrameResult& result);
   // Says once if the noise is not what the sensor model says.
   void noteNoise(const DepthSensorParameters& sensor, const DepthFrame& depth);
+  // Says each reason once.
   void noteUnreadable(const std::string& why);
   // Says what is wrong with the whole, after the last frame.
   void conclude();
 
   // Prints how far the run is of so many frames: now and then, or on a terminal always, in the same line.
   void showProgress(size_t all_frames, double frame_ms, size_t blocks, bool last) const;
-  // What goes wrong, on standard error.
+  // Prints what is no failure on standard error.
+  void warn(const std::string& message) const;
+  // The same of what is.
   void complain(const std::string& message);
 
  private:
@@ -44,16 +48,15 @@ class RunLog {
   // Says once that the map may be wrong.
   void noteDoubt(const std::string& doubt);
   void noteMostLost();
+  void noteManyUnreadable();
   // Prints an event of the frame on a line of its own.
   void say(const std::string& event) const;
-  // Prints what is no failure on standard error.
-  void warn(const std::string& message) const;
-
   const RunOptions& options_;
   const std::string input_;
   RunCounts counts_;
   Trajectory trajectory_;
-  std::string status_;            // of the last frame
+  std::string status_;  // of the last frame
+  std::set<std::string> said_unreadable_;
   bool is_lost_ = false;          // the frame before
   bool is_searched_for_ = false;  // in a map that was loaded
   bool pool_was_full_ = false;
