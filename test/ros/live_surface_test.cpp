@@ -47,6 +47,19 @@ TEST_F(LiveSurfaceTest, onlyWhatChangedIsPublished) {
   EXPECT_LT(screen.takeTraffic().added, before.size());
 }
 
+TEST_F(LiveSurfaceTest, aShareOfTheTrianglesIsKept) {
+  graph_.handle().setParam("surface_mesh/triangle_share", 0.5);
+  graph_.handle().setParam("surface_mesh/chunk_blocks", 16);
+  load();
+  Screen screen(graph_.handle(), "surface_mesh/markers");
+  map_.show(ball({0.0, 0.0, 0.0}, 0.08));
+  const size_t all = map_.mesh().triangles.size();
+  EXPECT_TRUE(eventually([&] {
+    const size_t shown = screen.triangles().size();
+    return shown > all / 3 && shown < 2 * all / 3;
+  }));
+}
+
 TEST_F(LiveSurfaceTest, nothingIsSentWhileNothingChanges) {
   load();
   Screen screen(graph_.handle(), "surface_mesh/markers");
