@@ -139,6 +139,7 @@ TEST_F(LiveSurfaceTest, parametersChangeMeanwhile) {
 TEST_F(LiveSurfaceTest, fusionIsFollowed) {
   constexpr int kFrames = 15;
   NodeletGraph graph("live_fusion");
+  graph.handle().setParam("surface_mesh/triangle_share", 1.0);
   graph.handle().setParam("surface_mesh/publish_rate_hz", 10.0);
   graph.handle().setParam("surface_mesh/chunks_per_update", 50);
   Listener<MapStatus> map_status(graph.handle(), "tsdf_fusion/status");
