@@ -86,8 +86,10 @@ void calibrate(const Options& options) {
                       options.parameters.registration);
   };
   std::cout << "input: " << open()->description() << std::endl;
+  std::string remark;
   const Trajectory truth =
-      options.trajectory_file.empty() ? Trajectory() : readPoses(options.trajectory_file);
+      options.trajectory_file.empty() ? Trajectory() : readPoses(options.trajectory_file, &remark);
+  if (!remark.empty()) std::cerr << "calibrate: " << remark << std::endl;
   std::filesystem::create_directories(options.output);
 
   CalibrationReport report;

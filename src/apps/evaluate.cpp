@@ -1,5 +1,6 @@
 // Measures trajectories against ground truth and meshes against the exact surface of a built-in scene.
 #include <cstdio>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "apps/command_line.h"
@@ -117,7 +118,9 @@ void evaluate(const Arguments& arguments) {
   Json report = Json::object();
   Pose T_W_M = Pose::Identity();
   if (!arguments.groundtruth.empty()) {
-    const Trajectory truth = readPoses(arguments.groundtruth);
+    std::string remark;
+    const Trajectory truth = readPoses(arguments.groundtruth, &remark);
+    if (!remark.empty()) std::cerr << "evaluate: " << remark << std::endl;
     T_W_M = truth.front().T_W_D;
     if (!arguments.trajectory.empty()) {
       const TrajectoryError error =

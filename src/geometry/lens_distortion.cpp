@@ -48,6 +48,14 @@ void checkDistortion(const LensDistortion& lens) {
         "lens distortion has a coefficient that is no number");
 }
 
+void checkDepthLens(const LensDistortion& lens, const std::string& name) {
+  checkDistortion(lens);
+  check(lens.size() <= 8 || !distorts({lens.begin() + 8, lens.end()}),
+        name +
+            ": thin prism and tilt of the lens (s1 ... ty) are not taken out of depth; calibrate with at "
+            "most 8 coefficients, or give rectified depth");
+}
+
 double maxSquaredRadius(const CameraIntrinsics& camera, const LensDistortion& lens, const std::string& name) {
   const double corner = cornerRadius(camera);
   double radius = 0.0, distorted = 0.0;

@@ -41,11 +41,11 @@ std::unique_ptr<Recording> openFolder(const std::string& path, const RecordingOp
               "frame-000000.depth.png (7-Scenes layout)");
 }
 
-Trajectory readPoses(const std::string& file_or_folder) {
-  if (!std::filesystem::is_directory(file_or_folder)) return readTrajectory(file_or_folder);
-  if (hasTumLayout(file_or_folder)) return readTrajectory(file_or_folder + "/groundtruth.txt");
+Trajectory readPoses(const std::string& file_or_folder, std::string* remark) {
+  if (!std::filesystem::is_directory(file_or_folder)) return readTrajectory(file_or_folder, remark);
+  if (hasTumLayout(file_or_folder)) return readTrajectory(file_or_folder + "/groundtruth.txt", remark);
   Trajectory poses;
-  if (hasSevenScenesLayout(file_or_folder)) poses = readSevenScenesPoses(file_or_folder);
+  if (hasSevenScenesLayout(file_or_folder)) poses = readSevenScenesPoses(file_or_folder, remark);
   check(!poses.empty(), file_or_folder + ": the folder holds no poses; give a file in the TUM format");
   return poses;
 }

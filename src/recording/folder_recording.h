@@ -16,6 +16,7 @@ std::unique_ptr<Recording> openTumFolder(const std::string& folder, const Record
 // frame-XXXXXX.depth.png with .color.png or .color.jpg and .pose.txt beside it.
 bool hasSevenScenesLayout(const std::string& folder);
 std::unique_ptr<Recording> openSevenScenesFolder(const std::string& folder, const RecordingOptions& options);
-Trajectory readSevenScenesPoses(const std::string& folder);
+// As readPoses.
+Trajectory readSevenScenesPoses(const std::string& folder, std::string* remark);
 
 }  // namespace depth_fusion

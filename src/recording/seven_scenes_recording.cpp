@@ -4,6 +4,7 @@
 #include <map>
 
 #include "common/io/image_file.h"
+#include "common/io/text_file.h"
 #include "depth_fusion/common/error.h"
 #include "recording/color_or_problem.h"
 #include "recording/folder_recording.h"
@@ -69,7 +70,7 @@ std::optional<Pose> readPoseIfAny(const std::string& path) {
 std::optional<RecordingIntrinsics> readIntrinsics(const std::string& folder, cv::Size depth_size) {
   const std::string path = folder + kIntrinsicsFile;
   if (std::filesystem::exists(path)) {
-    const std::vector<double> k = readMatrixFile(path, 3);
+    const std::vector<double> k = readCameraMatrixFile(path);
     return RecordingIntrinsics{{depth_size.width, depth_size.height, k[0], k[4], k[2], k[5]},
                                "from camera-intrinsics.txt"};
   }
@@ -124,10 +125,7 @@ class SevenScenesRecording : public Recording {
   cv::Size depthSize() const {
     std::vector<std::string> paths;
     for (const auto& [index, files] : frames_) paths.push_back(files.depth);
-    const auto size = usualPngSize(paths);
-    check(size.has_value(),
-          folder_ + ": none of its depth images is a PNG that can be read; the first is " + paths.front());
-    return *size;
+    return usualDepthSize(paths, folder_);
   }
 
   size_t count(std::string FrameFiles::*file) const {
@@ -149,13 +147,21 @@ std::unique_ptr<Recording> openSevenScenesFolder(const std::string& folder, cons
   return std::make_unique<SevenScenesRecording>(folder, options);
 }
 
-Trajectory readSevenScenesPoses(const std::string& folder) {
+Trajectory readSevenScenesPoses(const std::string& folder, std::string* remark) {
   Trajectory poses;
+  LeftOut left_out;
   for (const auto& [index, files] : listFrames(folder)) {
     if (files.pose.empty()) continue;
-    if (const auto T_W_D = readPoseFile(files.pose))
-      poses.push_back({static_cast<double>(index) / kFrameRate_hz, *T_W_D});
+    try {
+      if (const auto T_W_D = readPoseFile(files.pose))
+        poses.push_back({static_cast<double>(index) / kFrameRate_hz, *T_W_D});
+    } catch (const Error& error) {
+      left_out.add(error.what());
+    }
   }
+  const bool is_forgiven = left_out.empty() || (remark != nullptr && !poses.empty());
+  check(is_forgiven, left_out.firstProblem());
+  if (!left_out.empty()) *remark += left_out.text("pose file");
   return poses;
 }
 

@@ -22,12 +22,23 @@ std::optional<double> parseStamp(const std::string& text) {
   return stampSeconds(numbers->front());
 }
 
-// Names may stand in quotes, hold blanks, and have the separators of Windows.
-std::string pathOf(const std::string& name, const std::filesystem::path& folder) {
-  std::string path = (folder / trimmed(name, " \t,;\"'")).string();
+bool isThere(const std::filesystem::path& path) {
   std::error_code none;  // a name that no file can have is no file's
-  if (!std::filesystem::exists(path, none)) std::replace(path.begin(), path.end(), '\\', '/');
-  return path;
+  return std::filesystem::exists(path, none);
+}
+
+// Names may stand in quotes, hold blanks, and have the separators of Windows. One that leads nowhere may be
+// that of a folder that was moved, or go from the folder above: what it ends with is looked for.
+std::string pathOf(const std::string& name, const std::filesystem::path& folder) {
+  std::string wanted = trimmed(name, " \t,;\"'");
+  if (isThere(folder / wanted)) return (folder / wanted).string();
+  std::replace(wanted.begin(), wanted.end(), '\\', '/');
+  for (size_t begin = 0; begin != std::string::npos; begin = wanted.find('/', begin)) {
+    begin = std::min(wanted.find_first_not_of('/', begin), wanted.size());
+    if (begin < wanted.size() && isThere(folder / wanted.substr(begin)))
+      return (folder / wanted.substr(begin)).string();
+  }
+  return (folder / wanted).string();
 }
 
 // "stamp file", the file being what follows the stamp up to the text's end.
@@ -63,20 +74,30 @@ std::vector<Entry> readEntries(const std::string& list_path, const std::string& 
                                const Parse& parse) {
   const std::filesystem::path folder = std::filesystem::path(list_path).parent_path();
   std::vector<Entry> entries;
-  std::string first_problem;
-  size_t problems = 0;
+  LeftOut left_out;
   for (const TextLine& line : readTextLines(list_path)) {
-    if (const std::optional<Entry> entry = parse(line.text, folder)) {
+    if (const std::optional<Entry> entry = parse(withDecimalPoints(line.text), folder)) {
       entries.push_back(*entry);
-    } else if (problems++ == 0) {
-      first_problem = line.where + ": '" + line.text + "' is not an entry; expected '" + expected + "'";
+    } else {
+      left_out.add(line.where + ": '" + line.text + "' is not an entry; expected '" + expected + "'");
     }
   }
-  check(!entries.empty() || problems > 0, list_path + ": lists no file; expected lines '" + expected + "'");
-  check(!entries.empty(), first_problem);
-  if (remark != nullptr && problems > 0)
-    *remark += "; " + std::to_string(problems) + " lines left out, the first: " + first_problem;
+  check(!entries.empty() || !left_out.empty(),
+        list_path + ": lists no file; expected lines '" + expected + "'");
+  check(!entries.empty(), left_out.firstProblem());
+  if (remark != nullptr && !left_out.empty()) *remark += "; " + left_out.text("line");
   return entries;
+}
+
+// Several images of one stamp get one and the same colour, and no motion between them.
+void noteEqualStamps(const std::vector<TimedFile>& files, const std::string& list_path, std::string& remark) {
+  size_t equal = 0;
+  for (size_t i = 1; i < files.size(); ++i) {
+    if (files[i].stamp_s == files[i - 1].stamp_s) ++equal;
+  }
+  if (equal > 0)
+    remark += "; " + std::to_string(equal) + " of the " + std::to_string(files.size()) + " images of " +
+              list_path + " have the stamp of another";
 }
 
 // Pairs of which the first is depth, or of which the second is.
@@ -99,6 +120,7 @@ bool depthIsSecond(const std::vector<TimedPair>& pairs) {
 std::vector<TimedFile> readTimedFiles(const std::string& list_path, std::string* remark) {
   auto files = readEntries<TimedFile>(list_path, "stamp file", remark, parseTimedFile);
   std::stable_sort(files.begin(), files.end(), earlier);
+  if (remark != nullptr) noteEqualStamps(files, list_path, *remark);
   return files;
 }
 

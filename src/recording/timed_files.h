@@ -11,9 +11,9 @@ struct TimedFile {
   std::string path;
 };
 
-// The files of a list, sorted by stamp, with paths that begin with the list's folder. A line that is no entry
-// is left out, and added to the remark. Throws Error naming the first such line if there is no other, or a
-// list that is missing or empty.
+// The files of a list, sorted by stamp, with paths that begin with the list's folder. The remark says which
+// lines are no entries and left out, and how many stamps are equal. Throws Error naming the first line that
+// is no entry if there is no other, or a list that is missing or empty.
 std::vector<TimedFile> readTimedFiles(const std::string& list_path, std::string* remark = nullptr);
 
 // Depth with the colour that belongs to it.

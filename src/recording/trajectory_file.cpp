@@ -12,14 +12,12 @@ namespace {
 
 bool earlier(const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; }
 
+constexpr size_t kNumbers = 8;
+
 // Gives nothing for what trackers write where they have no pose: numbers that are not finite, a quaternion of
 // zeros.
-std::optional<StampedPose> parsePose(const TextLine& line) {
+std::optional<StampedPose> poseOf(const std::vector<double>& v) {
   constexpr double kLeastNorm = 1e-6;
-  const auto numbers = parseNumbers(line.text);
-  check(numbers && numbers->size() == 8,
-        line.where + ": '" + line.text + "' is not a pose; expected 'stamp tx ty tz qx qy qz qw'");
-  const std::vector<double>& v = *numbers;
   const Eigen::Quaterniond rotation(v[7], v[4], v[5], v[6]);
   const bool is_finite = std::all_of(v.begin(), v.end(), [](double number) { return std::isfinite(number); });
   if (!is_finite || rotation.norm() < kLeastNorm) return std::nullopt;
@@ -41,11 +39,20 @@ std::string poseText(const StampedPose& pose) {
 
 }  // namespace
 
-Trajectory readTrajectory(const std::string& path) {
+Trajectory readTrajectory(const std::string& path, std::string* remark) {
   Trajectory trajectory;
+  LeftOut left_out;
   for (const TextLine& line : readTextLines(path)) {
-    if (const auto pose = parsePose(line)) trajectory.push_back(*pose);
+    const auto numbers = parseNumbers(withDecimalPoints(line.text));
+    if (!numbers || numbers->size() != kNumbers) {
+      left_out.add(line.where + ": '" + line.text + "' is not a pose; expected 'stamp tx ty tz qx qy qz qw'");
+    } else if (const auto pose = poseOf(*numbers)) {
+      trajectory.push_back(*pose);
+    }
   }
+  const bool is_forgiven = left_out.empty() || (remark != nullptr && !trajectory.empty());
+  check(is_forgiven, left_out.firstProblem());
+  if (!left_out.empty()) *remark += left_out.text("line");
   check(!trajectory.empty(), path + ": holds no pose; expected lines 'stamp tx ty tz qx qy qz qw'");
   std::stable_sort(trajectory.begin(), trajectory.end(), earlier);
   return trajectory;

@@ -1,6 +1,7 @@
 // Recordings in the layout of the TUM RGB-D benchmark.
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "common/io/image_file.h"
 #include "depth_fusion/common/error.h"
@@ -9,6 +10,7 @@
 #include "recording/folder_recording.h"
 #include "recording/recording_intrinsics.h"
 #include "recording/timed_files.h"
+#include "recording/unpaired_color.h"
 
 namespace depth_fusion {
 namespace {
@@ -107,7 +109,11 @@ class TumRecording : public Recording {
     frame.distortion = frame.color_distortion = distortion_;
     checkDepthSize(frame.depth, frame.intrinsics, depth_file.path);
     const TimedFile* color_file = colorOf(index);
-    if (color_file == nullptr) return frame;
+    if (color_file == nullptr) {
+      frame.color_problem = unpaired_.noteUnpaired(nearestColor_s(frame.stamp_s), max_pairing_gap_s_);
+      return frame;
+    }
+    unpaired_.notePaired();
     frame.color_stamp_s = color_file->stamp_s;
     readColorOrProblem(frame, [&] { return readColorImage(color_file->path); });
     return frame;
@@ -126,16 +132,18 @@ class TumRecording : public Recording {
   cv::Size depthSize() const {
     std::vector<std::string> paths;
     for (const TimedFile& file : files_.depth) paths.push_back(file.path);
-    const auto size = usualPngSize(paths);
-    check(size.has_value(), files_.list + ": none of its " + std::to_string(paths.size()) +
-                                " files is a PNG that can be read; the first is " + paths.front() +
-                                files_.remark);
-    return *size;
+    return usualDepthSize(paths, files_.list, files_.remark);
   }
 
   const TimedFile* colorOf(size_t index) const {
     if (files_.is_paired) return &files_.color[index];
     return nearestFile(files_.color, files_.depth[index].stamp_s, max_pairing_gap_s_);
+  }
+
+  // By how much the nearest colour is later.
+  std::optional<double> nearestColor_s(double stamp_s) const {
+    const TimedFile* color = nearestFile(files_.color, stamp_s, std::numeric_limits<double>::max());
+    return color == nullptr ? std::nullopt : std::optional<double>(color->stamp_s - stamp_s);
   }
 
   std::string folder_;
@@ -144,6 +152,7 @@ class TumRecording : public Recording {
   double depth_unit_m_ = 1.0 / kTumDepthScale;
   RecordingIntrinsics intrinsics_;
   LensDistortion distortion_;
+  UnpairedColor unpaired_;
   size_t next_index_ = 0;
 };
 

@@ -13,13 +13,8 @@ constexpr float kAnyDepth_m = std::numeric_limits<float>::max();
 }  // namespace
 
 LensArgs lensArgs(const CameraIntrinsics& camera, const LensDistortion& lens, const std::string& name) {
-  checkDistortion(lens);
+  checkDepthLens(lens, name);
   if (!distorts(lens)) return {{}, {}, kAnyDepth_m};
-  check(lens.size() <= 8 || !distorts({lens.begin() + 8, lens.end()}),
-        name +
-            ": thin prism and tilt of the lens (s1 ... ty) are not taken out of depth; calibrate with at "
-            "most 8 "
-            "coefficients, or give rectified depth");
   std::vector<float> k(lens.begin(), lens.end());
   k.resize(8, 0.0f);
   return {{k[0], k[1], k[4], k[5], k[6], k[7]},

@@ -5,6 +5,7 @@
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
+#include "ros/output/camera_tree.h"
 #include "support/live_graph.h"
 
 namespace depth_fusion {
@@ -147,6 +148,58 @@ TEST_F(LivePoses, ATreeThatGrowsLaterIsFollowed) {
                fromMessage(pose->pose.pose) * T_link_camera.inverse(), 1e-9, 1e-7);
   }
   EXPECT_TRUE(followed);
+}
+
+// tf had names with a slash before them, and old bags and drivers have them still.
+TEST_F(LivePoses, NamesOfFramesMayBeginWithASlash) {
+  graph_.handle().setParam("icp_tracking/map_frame", "map_slash");
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  ros::Publisher tf = graph_.handle().advertise<tf2_msgs::TFMessage>("/tf", 10);
+  FakeCamera camera(graph_.handle(), "/slash_optical");
+  loadTracking();
+  const Pose T_base_camera = motionOf({-90.0, 0.0, -90.0}, {0.1, 0.0, 0.4});
+  for (const RgbdFrame& frame : simulatedFrames(smallRoom(4))) {
+    const ros::Time stamp = camera.headerOf(frame).stamp;
+    tf2_msgs::TFMessage message;
+    message.transforms = {makeTransform(makeHeader(stamp, "/slash_base"), "/slash_optical", T_base_camera)};
+    tf.publish(message);
+    ASSERT_TRUE(eventually([&] { return buffer.canTransform("slash_base", "slash_optical", stamp); }));
+    camera.publish(frame);
+    const auto status = map_status_.awaitStamp(stamp);
+    ASSERT_NE(status, nullptr);
+    EXPECT_TRUE(status->fused) << status->reason;
+    ASSERT_TRUE(eventually([&] { return buffer.canTransform("map_slash", "slash_base", stamp); }));
+    EXPECT_EQ(poses_.awaitStamp(stamp)->header.frame_id, "map_slash");
+  }
+}
+
+TEST(CameraTrees, ForgetNothingForTwoCallbacksAtOnce) {
+  constexpr int kMany = 3000;
+  NodeletGraph graph("camera_tree");  // for its spinner's threads
+  const CameraTree tree(graph.handle(), "map");
+  ros::Publisher moving = graph.handle().advertise<tf2_msgs::TFMessage>("/tf", kMany + 1);
+  ros::Publisher fixed = graph.handle().advertise<tf2_msgs::TFMessage>("/tf_static", kMany + 1);
+  const auto send = [](const ros::Publisher& publisher, const std::string& parent, const std::string& child) {
+    tf2_msgs::TFMessage message;
+    message.transforms = {makeTransform(makeHeader(ros::Time(1.0), parent), child, Pose::Identity())};
+    publisher.publish(message);
+  };
+  const auto knows = [&](const std::string& parent, const std::string& child) {
+    return tree.newest(parent, child).has_value();
+  };
+  ASSERT_TRUE(eventually([&] {
+    send(moving, "tree_base", "tree_camera");
+    return knows("tree_base", "tree_camera");
+  }));
+  for (int i = 0; i < kMany; ++i) {
+    send(moving, "tree_a", "tree_b");
+    send(fixed, "tree_c", "tree_d");
+  }
+  send(moving, "tree_a", "last_moving");
+  send(fixed, "tree_c", "last_fixed");
+  ASSERT_TRUE(eventually([&] { return knows("tree_a", "last_moving") && knows("tree_c", "last_fixed"); }));
+  EXPECT_TRUE(knows("tree_base", "tree_camera"));
 }
 
 TEST_F(LivePoses, FusesAtPosesFromTf) {

@@ -47,6 +47,19 @@ TEST_F(LiveSurfaceTest, onlyWhatChangedIsPublished) {
   EXPECT_LT(screen.takeTraffic().added, before.size());
 }
 
+TEST_F(LiveSurfaceTest, aShareOfTheTrianglesIsKept) {
+  graph_.handle().setParam("surface_mesh/triangle_share", 0.5);
+  graph_.handle().setParam("surface_mesh/chunk_blocks", 16);
+  load();
+  Screen screen(graph_.handle(), "surface_mesh/markers");
+  map_.show(ball({0.0, 0.0, 0.0}, 0.08));
+  const size_t all = map_.mesh().triangles.size();
+  EXPECT_TRUE(eventually([&] {
+    const size_t shown = screen.triangles().size();
+    return shown > all / 3 && shown < 2 * all / 3;
+  }));
+}
+
 TEST_F(LiveSurfaceTest, nothingIsSentWhileNothingChanges) {
   load();
   Screen screen(graph_.handle(), "surface_mesh/markers");
@@ -126,6 +139,7 @@ TEST_F(LiveSurfaceTest, parametersChangeMeanwhile) {
 TEST_F(LiveSurfaceTest, fusionIsFollowed) {
   constexpr int kFrames = 15;
   NodeletGraph graph("live_fusion");
+  graph.handle().setParam("surface_mesh/triangle_share", 1.0);
   graph.handle().setParam("surface_mesh/publish_rate_hz", 10.0);
   graph.handle().setParam("surface_mesh/chunks_per_update", 50);
   Listener<MapStatus> map_status(graph.handle(), "tsdf_fusion/status");

@@ -114,6 +114,7 @@ TEST_F(MeshExport, refusesWhatItCannotDo) {
   OfferedMap map(graph_.resolve("tsdf_fusion"));
   load();
   expectRefusal(call("mesh.ply"), {"no surface yet"});
+  expectRefusal(call("mesh.ply", 0.0, true), {"no surface yet", "no colour", "color:=true"});
   map.show(ball({0.0, 0.0, 0.0}, 0.08));
   expectRefusal(call(""), {"path is empty"});
   expectRefusal(call("no/such/mesh.ply"), {ros_home_ / "no/such", "does not exist"});

@@ -181,6 +181,21 @@ TEST_F(RgbdSubscriberTest, WhatIsSkippedIsNotDecodedAndWhatCannotBeDecodedIsCoun
   EXPECT_EQ(droppedFor("unusable image or camera_info"), 1u);
 }
 
+TEST_F(RgbdSubscriberTest, ColourOfAnotherClockIsSaidAndCostsNoDepth) {
+  std::vector<RgbdMessagesPtr> waiting;
+  subscribe([&](const RgbdMessagesPtr& frame) { waiting.push_back(frame); });
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    camera_.publishColor(at(frames_[i], frames_[i].stamp_s + 0.5));  // not so late that depth waits for it
+    camera_.publishDepth(frames_[i]);
+    EXPECT_TRUE(eventually([&] { return waiting.size() == i + 1; }));
+  }
+  const SensorFramePtr frame = subscriber_->decode(*waiting.back());
+  ASSERT_NE(frame, nullptr);
+  EXPECT_TRUE(frame->rgbd.color.empty());
+  EXPECT_NE(frame->rgbd.color_problem.find("s later"), std::string::npos) << frame->rgbd.color_problem;
+  EXPECT_EQ(subscriber_->problem(), frame->rgbd.color_problem);
+}
+
 TEST_F(RgbdSubscriberTest, UnusableColourCostsNoDepth) {
   std::vector<RgbdMessagesPtr> waiting;
   subscribe([&](const RgbdMessagesPtr& frame) { waiting.push_back(frame); });

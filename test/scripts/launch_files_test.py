@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What the launch files make of the paths that users give."""
 import os
+import re
 import shlex
 import unittest
 
@@ -32,6 +33,19 @@ class ReplayTest(unittest.TestCase):
     def test_several_bags_are_played(self):
         self.assertEqual(self.bags_of('/a/0.bag 1.bag ~/my room.bag'),
                          ['/a/0.bag', '/where/i am/1.bag', '/home/user/my room.bag'])
+
+
+class ReconstructionTest(unittest.TestCase):
+
+    def test_what_an_earlier_launch_left_of_any_stage_is_cleared(self):
+        os.environ['ROS_PACKAGE_PATH'] = ROOT + ':' + os.environ.get('ROS_PACKAGE_PATH', '/usr/share')
+        config = roslaunch.config.load_config_default(
+            [(os.path.join(ROOT, 'launch', 'reconstruction.launch'), [])], None, verbose=False)
+        with open(os.path.join(ROOT, 'docs', 'ros_api.md')) as api:
+            stages = set(re.findall(r'<!-- parameters of (\w+) -->', api.read()))
+        stages -= {'acquisition'}  # another launch file's, and the nodelet's own
+        self.assertGreater(len(stages), 10)
+        self.assertEqual(stages - {name.strip('/').split('/')[-1] for name in config.clear_params}, set())
 
 
 class DemoTest(unittest.TestCase):

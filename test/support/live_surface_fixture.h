@@ -19,6 +19,7 @@ class LiveSurfaceTest : public testing::Test {
  protected:
   LiveSurfaceTest() : graph_("live_surface"), map_(graph_.resolve("tsdf_fusion"), false) {
     graph_.handle().setParam("surface_mesh/chunk_blocks", 2);
+    graph_.handle().setParam("surface_mesh/triangle_share", 1.0);  // so that it can be compared with the mesh
     graph_.handle().setParam("surface_mesh/publish_rate_hz", 20.0);
     graph_.handle().setParam("surface_mesh/points_rate_hz", 20.0);
   }

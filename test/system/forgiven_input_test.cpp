@@ -104,6 +104,42 @@ TEST_F(ForgivenInput, parts_of_a_split_bag_are_one_recording) {
       << calibration.output << calibration.errors;
 }
 
+TEST_F(ForgivenInput, what_many_frames_have_in_common_is_said_once) {
+  ASSERT_EQ(
+      runApp("simulate", {"--output", folder_ / "room.bag", "--frames", std::to_string(kFrames)}).status, 0);
+  {
+    rosbag::Bag whole(folder_ / "room.bag"), spoilt(folder_ / "spoilt.bag", rosbag::bagmode::Write);
+    rosbag::View view(whole);
+    int images = 0;
+    for (const rosbag::MessageInstance& place : view) {
+      const auto image = place.instantiate<sensor_msgs::Image>();
+      const bool is_depth = image != nullptr && image->encoding != "bgr8";
+      if (is_depth && ++images > 3) image->encoding = "bgr8";
+      if (image != nullptr) {
+        spoilt.write(place.getTopic(), place.getTime(), *image);
+      } else {
+        spoilt.write(place.getTopic(), place.getTime(), place);
+      }
+    }
+  }
+  const AppRun run = reconstruct({folder_ / "spoilt.bag"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(readReport(out())["frames"]["tracked"], 3) << run.errors;
+  EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 2) << run.errors;
+  EXPECT_NE(run.errors.find("3 of 6 frames could not be read"), std::string::npos) << run.errors;
+}
+
+TEST_F(ForgivenInput, poses_with_a_header_and_a_line_that_was_cut_short_are_used) {
+  const std::string poses = folder_ / "poses.csv";
+  std::string text = fileBytes(room() + "/groundtruth.txt");
+  text.erase(0, text.find('\n') + 1);
+  std::replace(text.begin(), text.end(), ' ', ',');
+  writeText(poses, "stamp,x,y,z,qx,qy,qz,qw\n" + text + "2.5,0.1,0.2");
+  const AppRun run = reconstruct({room(), "--trajectory", poses});
+  expectFused(run, kFrames);
+  EXPECT_NE(run.errors.find("2 lines left out, the first: " + poses + ":1"), std::string::npos) << run.errors;
+}
+
 TEST_F(ForgivenInput, colour_of_another_size_is_named_once_and_costs_no_frame) {
   for (const TimedFile& file : readTimedFiles(room() + "/rgb.txt"))
     writePng(file.path, cv::Mat(240, 320, CV_8UC3, cv::Scalar(10, 20, 30)));

@@ -18,6 +18,9 @@ bool distorts(const LensDistortion& lens);
 // Throws Error if the coefficients are not as many as a known model has, or not finite.
 void checkDistortion(const LensDistortion& lens);
 
+// Throws Error, naming the camera, for a lens that is not taken out of depth: one with thin prism or tilt.
+void checkDepthLens(const LensDistortion& lens, const std::string& name);
+
 // The lens shows the rays up to this distance from the axis, squared, at depth 1; farther out its polynomial
 // may turn back. Throws Error, naming the camera, if it does so before the image's nearest border: rays then
 // cannot be told from pixels.

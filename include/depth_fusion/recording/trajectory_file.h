@@ -10,13 +10,14 @@ namespace depth_fusion {
 
 // Lines whose pose is none (numbers that are not finite, a quaternion of zeros) are left out, other
 // quaternions normalised. Throws Error naming the file and line of what cannot be read, or a file without a
-// pose. The poses come sorted by stamp.
-Trajectory readTrajectory(const std::string& path);
+// pose. With a remark, lines that cannot be read are left out beside others, and it says which. The poses
+// come sorted by stamp.
+Trajectory readTrajectory(const std::string& path, std::string* remark = nullptr);
 
 // The poses of a file in the TUM format, or those that a recording's folder holds: groundtruth.txt of the TUM
-// layout, frame-XXXXXX.pose.txt of the 7-Scenes layout. Throws Error as readTrajectory, or if the folder
-// holds none.
-Trajectory readPoses(const std::string& file_or_folder);
+// layout, frame-XXXXXX.pose.txt of the 7-Scenes layout. Throws Error as readTrajectory, of whole pose files,
+// too, or if the folder holds none.
+Trajectory readPoses(const std::string& file_or_folder, std::string* remark = nullptr);
 
 // Throws Error if the file cannot be written completely.
 void writeTrajectory(const std::string& path, const Trajectory& trajectory);

@@ -105,7 +105,9 @@ struct BlockCounting::Frames : BlockCounting::Surface {
   explicit Frames(const CountingOptions& counting_options)
       : options(counting_options), compute(options.device), recording(open()) {
     std::cout << "input: " << recording->description() << std::endl;
-    if (!options.trajectory_file.empty()) trajectory = readPoses(options.trajectory_file);
+    std::string remark;
+    if (!options.trajectory_file.empty()) trajectory = readPoses(options.trajectory_file, &remark);
+    if (!remark.empty()) std::cerr << "plan_resolution: " << remark << std::endl;
   }
 
   std::unique_ptr<Recording> open() {

@@ -62,7 +62,9 @@ Run::Run(const RunOptions& options) : options_(options), log_(options), compute_
   std::cout << "device: " << compute_.selfTestReport() << std::endl;
   openRecording();
   std::cout << "input: " << recording_->description() << std::endl;
-  if (!options.trajectory_file.empty()) poses_ = readPoses(options.trajectory_file);
+  std::string remark;
+  if (!options.trajectory_file.empty()) poses_ = readPoses(options.trajectory_file, &remark);
+  if (!remark.empty()) log_.warn(remark);
   std::error_code error;
   std::filesystem::create_directories(options.output, error);
   check(!error && access(options.output.c_str(), W_OK) == 0,

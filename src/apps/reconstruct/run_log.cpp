@@ -96,7 +96,13 @@ void RunLog::noteDoubt(const std::string& doubt) {
 
 void RunLog::noteUnreadable(const std::string& why) {
   ++counts_.unreadable;
-  complain(why);
+  if (said_unreadable_.insert(why).second) complain(why);
+}
+
+void RunLog::noteManyUnreadable() {
+  if (counts_.unreadable > said_unreadable_.size())
+    complain(std::to_string(counts_.unreadable) + " of " + std::to_string(counts_.read + counts_.unreadable) +
+             " frames could not be read, for the reasons above");
 }
 
 void RunLog::correct(const Trajectory& corrected, size_t loops, double moved_m) {
@@ -108,6 +114,7 @@ void RunLog::correct(const Trajectory& corrected, size_t loops, double moved_m) 
 void RunLog::conclude() {
   if (counts_.tracked == 0) complain("no frame of " + input_ + " was fused; the last one is " + status_);
   noteMostLost();
+  noteManyUnreadable();
   if (options_.parameters.map.color && counts_.colored == 0)
     complain("--color: no frame of " + input_ + " has a colour image that can be used");
 }

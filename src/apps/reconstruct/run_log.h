@@ -1,6 +1,7 @@
 // What becomes of the frames of a run: the account for its report, and what is said of it on the console.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ class RunLog {
   void note(const RgbdFrame& frame, const FrameResult& result, double way_m);
   // Says once if the noise is not what the sensor model says.
   void noteNoise(const DepthSensorParameters& sensor, const DepthFrame& depth);
+  // Says each reason once.
   void noteUnreadable(const std::string& why);
   // The tracked frames' poses are these, by so many loops.
   void correct(const Trajectory& corrected, size_t loops, double moved_m);
@@ -41,7 +43,9 @@ class RunLog {
   void showProgress(size_t all_frames, double frame_ms, size_t blocks, bool last) const;
   // The same of the second pass.
   void showSecondPass(size_t frames, bool last) const;
-  // What goes wrong, on standard error.
+  // Prints what is no failure on standard error.
+  void warn(const std::string& message) const;
+  // The same of what is.
   void complain(const std::string& message);
 
  private:
@@ -53,17 +57,16 @@ class RunLog {
   // Says once that the map may be wrong.
   void noteDoubt(const std::string& doubt);
   void noteMostLost();
+  void noteManyUnreadable();
   // Prints an event of the frame on a line of its own.
   void say(const std::string& event) const;
-  // Prints what is no failure on standard error.
-  void warn(const std::string& message) const;
-
   const RunOptions& options_;
   const std::string input_;
   RunCounts counts_;
   Trajectory trajectory_;
   std::vector<double> ways_m_;
-  std::string status_;            // of the last frame
+  std::string status_;  // of the last frame
+  std::set<std::string> said_unreadable_;
   bool is_lost_ = false;          // the frame before
   bool is_searched_for_ = false;  // in a map that was loaded
   bool pool_was_full_ = false;

@@ -17,10 +17,6 @@ namespace {
 constexpr unsigned char kPngSignature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr size_t kPngHeaderSize = 26;  // signature, length and type of IHDR, width, height, bits, kind
 
-bool isPng(const unsigned char* data, size_t size) {
-  return size >= sizeof(kPngSignature) && std::memcmp(data, kPngSignature, sizeof(kPngSignature)) == 0;
-}
-
 bool isJpeg(const unsigned char* data, size_t size) {
   return size >= 2 && data[0] == 0xff && data[1] == 0xd8;
 }
@@ -51,7 +47,7 @@ bool jpegIsComplete(const unsigned char* data, size_t size) {
 }
 
 bool isComplete(const unsigned char* data, size_t size) {
-  if (isPng(data, size)) return pngIsComplete(data, size);
+  if (beginsAsPng(data, size)) return pngIsComplete(data, size);
   if (isJpeg(data, size)) return jpegIsComplete(data, size);
   return true;
 }
@@ -82,6 +78,10 @@ Bytes readBytes(const std::string& path) {
 
 }  // namespace
 
+bool beginsAsPng(const unsigned char* data, size_t size) {
+  return size >= sizeof(kPngSignature) && std::memcmp(data, kPngSignature, sizeof(kPngSignature)) == 0;
+}
+
 cv::Mat decodeImage(const unsigned char* data, size_t size, const std::string& name) {
   return decode(data, size, cv::IMREAD_UNCHANGED, name);
 }
@@ -108,7 +108,7 @@ std::optional<PngHeader> readPngHeader(const std::string& path) {
   constexpr unsigned char kGray = 0;
   std::ifstream file(path, std::ios::binary);
   unsigned char header[kPngHeaderSize];
-  if (!file.read(reinterpret_cast<char*>(header), sizeof(header)) || !isPng(header, sizeof(header))) {
+  if (!file.read(reinterpret_cast<char*>(header), sizeof(header)) || !beginsAsPng(header, sizeof(header))) {
     return std::nullopt;
   }
   PngHeader read;
@@ -117,15 +117,24 @@ std::optional<PngHeader> readPngHeader(const std::string& path) {
   return read;
 }
 
-std::optional<cv::Size> usualPngSize(const std::vector<std::string>& paths) {
+cv::Size usualDepthSize(const std::vector<std::string>& paths, const std::string& list,
+                        const std::string& remark) {
   constexpr size_t kSamples = 9;
   std::vector<cv::Size> sizes;
+  std::string other;  // the first PNG that is no depth image
+  bool is_any_depth = false;
   for (const std::string& path : paths) {
+    if (sizes.size() >= kSamples && is_any_depth) break;
     const auto header = readPngHeader(path);
-    if (header && !header->size.empty()) sizes.push_back(header->size);
-    if (sizes.size() == kSamples) break;
+    if (!header || header->size.empty()) continue;
+    if (sizes.size() < kSamples) sizes.push_back(header->size);
+    if (!header->is_depth && other.empty()) other = path;
+    is_any_depth = is_any_depth || header->is_depth;
   }
-  if (sizes.empty()) return std::nullopt;
+  const std::string none = list + ": none of its " + std::to_string(paths.size()) + " files ";
+  check(!sizes.empty(), none + "is a PNG that can be read; the first is " + paths.front() + remark);
+  check(is_any_depth,
+        none + "has one channel of 16 bits, as depth has; the first that has not is " + other + remark);
   return usualSize(sizes);
 }
 

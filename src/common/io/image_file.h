@@ -1,6 +1,7 @@
 // Image files, read and written so that a damaged one is an Error and never a half-filled image.
 #pragma once
 
+#include <cstddef>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -9,6 +10,9 @@
 namespace depth_fusion {
 
 using Bytes = std::vector<unsigned char>;
+
+// Whether the data begin as those of a PNG do.
+bool beginsAsPng(const unsigned char* data, size_t size);
 
 // Decodes a PNG, JPEG or other image that OpenCV knows, with its depth and channels unchanged. Throws Error,
 // which begins with `name`, for one that is truncated or corrupt.
@@ -31,8 +35,10 @@ struct PngHeader {
 // The header of a PNG file, or nothing if there is no such file or it is none.
 std::optional<PngHeader> readPngHeader(const std::string& path);
 
-// The size that most of the first nine PNG files have, or nothing if none of the paths is such a file.
-std::optional<cv::Size> usualPngSize(const std::vector<std::string>& paths);
+// The size that most of the first nine PNG files have. Throws Error, which begins with `list` and ends with
+// the remark, if none of the paths is such a file, or none a depth image.
+cv::Size usualDepthSize(const std::vector<std::string>& paths, const std::string& list,
+                        const std::string& remark = "");
 
 // Throws Error naming the file if it cannot be written completely.
 void writePng(const std::string& path, const cv::Mat& image);

@@ -82,7 +82,39 @@ double readNumber(const char* text, char** end) {
   return number;
 }
 
+size_t digitsEnd(const std::string& word, size_t begin) {
+  return std::min(word.find_first_not_of("0123456789", begin), word.size());
+}
+
+// Where the word, which is a number like -12,5 or 1,2e-05, has its comma.
+std::optional<size_t> decimalComma(const std::string& word) {
+  const size_t begin = word.find_first_of("+-") == 0 ? 1 : 0;
+  const size_t comma = digitsEnd(word, begin);
+  if (comma == begin || comma >= word.size() || word[comma] != ',') return std::nullopt;
+  size_t end = digitsEnd(word, comma + 1);
+  if (end == comma + 1) return std::nullopt;
+  if (end < word.size() && std::tolower(static_cast<unsigned char>(word[end])) == 'e')
+    end = digitsEnd(word, std::min(word.find_first_not_of("+-", end + 1), word.size()));
+  return end == word.size() ? std::optional<size_t>(comma) : std::nullopt;
+}
+
 }  // namespace
+
+std::string LeftOut::text(const std::string& what) const {
+  return std::to_string(count_) + " " + what + (count_ == 1 ? " left out: " : "s left out, the first: ") +
+         first_problem_;
+}
+
+std::string withDecimalPoints(const std::string& text) {
+  std::string changed = text;
+  size_t words = 0;
+  for (size_t begin = 0; (begin = text.find_first_not_of(kBlanks, begin)) != std::string::npos; ++words) {
+    const size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
+    if (const auto comma = decimalComma(text.substr(begin, end - begin))) changed[begin + *comma] = '.';
+    begin = end;
+  }
+  return words > 1 ? changed : text;
+}
 
 std::vector<TextLine> readTextLines(const std::string& path) {
   std::istringstream file(readPlainText(path));

@@ -2,6 +2,7 @@
 // end as anywhere. A '#' at a line's begin or after a blank starts a comment, blank lines are skipped.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,26 @@ std::vector<TextLine> readTextLines(const std::string& path);
 
 // The text without these marks at its begin and end.
 std::string trimmed(const std::string& text, const char* marks);
+
+// Lines, or files, that are no use. What is left out is said.
+class LeftOut {
+ public:
+  void add(const std::string& problem) {
+    if (count_++ == 0) first_problem_ = problem;
+  }
+  bool empty() const { return count_ == 0; }
+  const std::string& firstProblem() const { return first_problem_; }
+  // "2 lines left out, the first: PROBLEM".
+  std::string text(const std::string& what) const;
+
+ private:
+  size_t count_ = 0;
+  std::string first_problem_;
+};
+
+// The text with points where its numbers have commas, as half of the world writes them: "1,5 a.png" is
+// "1.5 a.png". Where blanks separate nothing, commas may do, and the text stays as it is.
+std::string withDecimalPoints(const std::string& text);
 
 // The numbers of a text, separated by blanks, commas or semicolons, or nothing if it holds anything else.
 // "inf", "nan", "1.#INF", "-1.#IND" and the like are numbers, which are not finite.

@@ -36,7 +36,7 @@ ImageSample sample(const BagFiles& bags, const std::string& topic,
   check(!sizes.empty(), first_problem);
   const cv::Size size = usualSize(sizes);
   const auto usual = std::find(sizes.begin(), sizes.end(), size) - sizes.begin();
-  return {size, frames[static_cast<size_t>(usual)], percentile(leads_s, 0.5)};
+  return {size, frames[static_cast<size_t>(usual)], percentile(leads_s, 0.5), false};
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ BagImage readImage(const rosbag::MessageInstance& place, const BagFiles& bags) {
 
 DepthImage toDepth(const BagImage& image) {
   const DepthImage depth = toDepth(image.message, image.name);
-  return {image.message.raw ? depth.image.clone() : depth.image, depth.unit_m};
+  return {image.message.raw ? depth.image.clone() : depth.image, depth.unit_m, depth.is_in_unusual_unit};
 }
 
 cv::Mat toColor(const BagImage& image) {
@@ -66,7 +66,14 @@ cv::Mat toColor(const BagImage& image) {
 }
 
 ImageSample sampleDepth(const BagFiles& bags, const std::string& topic) {
-  return sample(bags, topic, [](const BagImage& image) { return toDepth(image).image.size(); });
+  bool is_in_unusual_unit = false;
+  ImageSample depth = sample(bags, topic, [&](const BagImage& image) {
+    const DepthImage decoded = toDepth(image);
+    is_in_unusual_unit = decoded.is_in_unusual_unit;
+    return decoded.image.size();
+  });
+  depth.is_in_unusual_unit = is_in_unusual_unit;
+  return depth;
 }
 
 ImageSample sampleColor(const BagFiles& bags, const std::string& topic) {

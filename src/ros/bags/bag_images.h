@@ -22,9 +22,10 @@ cv::Mat toColor(const BagImage& image);
 
 // What the first images of a topic that can be decoded have in common.
 struct ImageSample {
-  cv::Size size;         // the usual one
-  std::string frame_id;  // of an image of this size
-  double lead_s = 0.0;   // by how much stamps are ahead of the receipt, in the median
+  cv::Size size;                    // the usual one
+  std::string frame_id;             // of an image of this size
+  double lead_s = 0.0;              // by how much stamps are ahead of the receipt, in the median
+  bool is_in_unusual_unit = false;  // as DepthImage has it
 };
 
 // Looks at some of the topic's images, past those that cannot be decoded. Throws Error with the reason of the

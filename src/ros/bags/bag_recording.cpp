@@ -2,10 +2,12 @@
 // arrive.
 #include <cmath>
 #include <deque>
+#include <limits>
 
 #include "common/io/text_file.h"
 #include "common/nearest.h"
 #include "recording/color_or_problem.h"
+#include "recording/unpaired_color.h"
 #include "ros/bags/bag_clock.h"
 #include "ros/bags/bag_images.h"
 #include "ros/bags/bag_sources.h"
@@ -115,10 +117,21 @@ class BagRecording : public Recording {
     });
     if (color_image == nullptr) {
       std::swap(frame.color_problem, color_problem_);
+      const std::string unpaired = unpaired_.noteUnpaired(nearestColor_s(depth_image), max_pairing_gap_s_);
+      if (frame.color_problem.empty()) frame.color_problem = unpaired;
       return;
     }
+    unpaired_.notePaired();
     frame.color_stamp_s = color_image->stamp_s + (frame.stamp_s - depth_image.stamp_s);
     readColorOrProblem(frame, [&] { return toColor(*color_image); });
+  }
+
+  // By how much the nearest colour is later, of what is here.
+  std::optional<double> nearestColor_s(const BagImage& depth_image) const {
+    const auto later_s = [&](const BagImage& color) { return color.stamp_s - depth_image.stamp_s; };
+    const BagImage* color = nearest(color_images_, std::numeric_limits<double>::max(),
+                                    [&](const BagImage& candidate) { return std::abs(later_s(candidate)); });
+    return color == nullptr ? std::nullopt : std::optional<double>(later_s(*color));
   }
 
   double max_pairing_gap_s_;
@@ -131,6 +144,7 @@ class BagRecording : public Recording {
   size_t depth_count_ = 0;
   std::deque<BagImage> depth_images_;
   std::deque<BagImage> color_images_;
+  UnpairedColor unpaired_;
   std::string color_problem_;  // of a message that could not be read, until it is said
   double newest_s_ = 0.0;
 };

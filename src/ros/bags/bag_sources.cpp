@@ -3,6 +3,7 @@
 #include <sensor_msgs/CameraInfo.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "ros/bags/bag_images.h"
 #include "ros/bags/bag_transforms.h"
@@ -20,6 +21,12 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string numberText(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
 class SourceFinder {
  public:
   SourceFinder(const BagFiles& bags, const RecordingOptions& options)
@@ -30,7 +37,9 @@ class SourceFinder {
     const ImageSample depth = sampleDepth(bags_, sources_.depth_topic);
     sources_.stamp_lead_s = depth.lead_s;
     sources_.depth_unit_m = viewerDepthUnit(bags_, sources_.depth_topic);
+    noteUnit(depth);
     notePublishers();
+    noteRivals();
     if (options_.intrinsics) {
       sources_.intrinsics = chooseIntrinsics(options_.intrinsics, std::nullopt, depth.size, bags_.name());
     } else {
@@ -66,6 +75,18 @@ class SourceFinder {
              "); if they are several cameras, record one of them alone");
   }
 
+  void noteUnit(const ImageSample& depth) {
+    if (depth.is_in_unusual_unit)
+      remark("the numbers of " + sources_.depth_topic +
+             " are too large for metres and taken for millimetres");
+  }
+
+  void noteRivals() {
+    if (!options_.depth_topic.empty()) return;
+    const std::vector<std::string> rivals = rivalsOf(*findDepthTopic(topics_), topics_);
+    if (!rivals.empty()) remark("there is more depth: " + joined(rivals) + " (--depth-topic takes another)");
+  }
+
   // The first message of the topic that `use` takes without an Error; throws that of the first if none is.
   template <class Use>
   bool useInfo(const std::string& topic, const Use& use) const {
@@ -87,11 +108,16 @@ class SourceFinder {
 
   void findDepthCamera(cv::Size size) {
     const auto takeFrom = [&](const std::string& topic) {
-      return useInfo(topic, [&](const sensor_msgs::CameraInfo& info) {
-        depth_camera_ = cameraFromInfo(info, bags_.name() + ": " + topic, sources_.depth_topic, size);
-        sources_.intrinsics = {depth_camera_.intrinsics, "from " + topic};
-        sources_.distortion = depth_camera_.lens;
-      });
+      return useInfo(topic,
+                     [&](const sensor_msgs::CameraInfo& info) {
+                       const std::string name = bags_.name() + ": " + topic;
+                       depth_camera_ = cameraFromInfo(info, name, sources_.depth_topic, size);
+                       checkDepthLens(depth_camera_.lens, name);
+                       maxSquaredRadius(depth_camera_.intrinsics, depth_camera_.lens, name);
+                       sources_.intrinsics = {depth_camera_.intrinsics, "from " + topic};
+                       sources_.distortion = depth_camera_.lens;
+                     }) &&
+             noteChange(topic, size);
     };
     const std::string own_topic = ownInfoTopic(topics_, sources_.depth_topic);
     bool found = !own_topic.empty() && takeFrom(own_topic);
@@ -106,6 +132,36 @@ class SourceFinder {
     check(found, bags_.name() + ": no camera_info found for " + sources_.depth_topic + "; the bag holds " +
                      listTopics(topics_) + "; give the intrinsics with --intrinsics");
     if (!depth_camera_.remark.empty()) remark(depth_camera_.remark);
+  }
+
+  // Says if the camera is another one later. Looks at some messages only, for a bag may be long. True.
+  bool noteChange(const std::string& topic, cv::Size size) {
+    constexpr size_t kSamples = 20;
+    rosbag::View view;
+    bags_.addTo(view, {topic});
+    size_t place_number = 0;
+    const size_t stride = std::max<size_t>(view.size() / kSamples, 1);
+    for (auto place = view.begin(); place != view.end(); ++place, ++place_number) {
+      const bool is_last = place_number + 1 == view.size();
+      if (place_number % stride != 0 && !is_last) continue;
+      const auto camera = cameraOf(*place, topic, size);
+      if (!camera || sameCamera(camera->intrinsics, depth_camera_.intrinsics)) continue;
+      remark(topic + " changes, from a focal length of " + numberText(depth_camera_.intrinsics.fx) + " to " +
+             numberText(camera->intrinsics.fx) + "; the first counts for all images");
+      break;
+    }
+    return true;
+  }
+
+  // Nothing for a message that is of no use.
+  std::optional<CameraModel> cameraOf(const rosbag::MessageInstance& place, const std::string& topic,
+                                      cv::Size size) const {
+    try {
+      return cameraFromInfo(*readMessage<sensor_msgs::CameraInfo>(place, bags_), topic, sources_.depth_topic,
+                            size);
+    } catch (const Error&) {
+      return std::nullopt;
+    }
   }
 
   void findColor(const std::string& depth_frame) {
@@ -129,6 +185,7 @@ class SourceFinder {
     const auto take = [&](const sensor_msgs::CameraInfo* info) {
       camera = colorCameraFromInfo(info, topic, sources_.color_topic, size, depth_camera_);
       check(camera.problem.empty(), camera.problem);
+      maxSquaredRadius(camera.intrinsics.value_or(depth_camera_.intrinsics), camera.lens, topic);
       if (info != nullptr && !camera.is_registered) color_frame = info->header.frame_id;
     };
     if (topic.empty() || !useInfo(topic, [&](const sensor_msgs::CameraInfo& info) { take(&info); }))

@@ -82,6 +82,18 @@ int rankByName(const std::string& topic, const std::array<const char*, kCount>& 
   return found == preferred.end() ? kUnranked : static_cast<int>(found - preferred.begin());
 }
 
+bool isDepth(const BagTopic& topic) {
+  return (isImage(topic, kCompressedDepthName) || isImage(topic, kCompressedName)) &&
+         contains(baseTopic(topic.name), "depth") && !isOtherThanDistance(topic.name);
+}
+
+// What is compressed as a picture may be a PNG of 16 bits, or no depth any more.
+std::array<int, 4> depthRank(const BagTopic& topic) {
+  constexpr std::array<const char*, 4> kPreferred = {"image_raw", "image", "image_rect", "image_rect_raw"};
+  return {isImage(topic, kCompressedDepthName) ? 0 : 1, isRegistered(topic.name) ? 0 : 1,
+          topic.type == kImageType ? 0 : 1, rankByName(topic.name, kPreferred)};
+}
+
 // The topic of lowest rank among the wanted; the first by name among equals.
 template <class Wanted, class Rank>
 std::optional<BagTopic> findBest(const std::vector<BagTopic>& topics, const Wanted& wanted,
@@ -98,16 +110,16 @@ std::optional<BagTopic> findBest(const std::vector<BagTopic>& topics, const Want
 }  // namespace
 
 std::optional<BagTopic> findDepthTopic(const std::vector<BagTopic>& topics) {
-  constexpr std::array<const char*, 4> kPreferred = {"image_raw", "image", "image_rect", "image_rect_raw"};
-  const auto wanted = [](const BagTopic& topic) {
-    return isImage(topic, kCompressedDepthName) && contains(baseTopic(topic.name), "depth") &&
-           !isOtherThanDistance(topic.name);
-  };
-  const auto rank = [&](const BagTopic& topic) {
-    return std::array<int, 3>{isRegistered(topic.name) ? 0 : 1, topic.type == kImageType ? 0 : 1,
-                              rankByName(topic.name, kPreferred)};
-  };
-  return findBest(topics, wanted, rank);
+  return findBest(topics, isDepth, depthRank);
+}
+
+std::vector<std::string> rivalsOf(const BagTopic& depth_topic, const std::vector<BagTopic>& topics) {
+  std::vector<std::string> names;
+  for (const BagTopic& topic : topics) {
+    const bool is_other = baseTopic(topic.name) != baseTopic(depth_topic.name);
+    if (is_other && isDepth(topic) && depthRank(topic) == depthRank(depth_topic)) names.push_back(topic.name);
+  }
+  return names;
 }
 
 std::optional<BagTopic> findColorTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic) {

@@ -19,6 +19,9 @@ constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
 // The best image topic with depth in its name: registered before others, raw before compressed.
 std::optional<BagTopic> findDepthTopic(const std::vector<BagTopic>& topics);
 
+// Topics that are no worse than it but for their names: those of other cameras.
+std::vector<std::string> rivalsOf(const BagTopic& depth_topic, const std::vector<BagTopic>& topics);
+
 // The best image topic with rgb or color in its name: in the namespace nearest to the depth's, raw before
 // compressed.
 std::optional<BagTopic> findColorTopic(const std::vector<BagTopic>& topics, const std::string& depth_topic);

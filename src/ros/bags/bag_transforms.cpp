@@ -9,11 +9,6 @@
 namespace depth_fusion {
 namespace {
 
-// tf2 takes no names as tf had them.
-std::string withoutSlash(const std::string& frame) {
-  return frame.empty() || frame[0] != '/' ? frame : frame.substr(1);
-}
-
 void addTransforms(const rosbag::MessageInstance& place, const BagFiles& bags, tf2::BufferCore& tf) {
   try {
     for (geometry_msgs::TransformStamped transform :

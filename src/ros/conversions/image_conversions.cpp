@@ -1,13 +1,16 @@
 #include "ros/conversions/image_conversions.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 
 #include "common/io/image_file.h"
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/common/percentile.h"
 #include "ros/conversions/message_pixels.h"
+#include "ros/conversions/rvl.h"
 
 namespace depth_fusion {
 namespace {
@@ -52,34 +55,100 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+// Depth of no room if it is in metres, nor of any in millimetres if it is less.
+bool isInMillimetres(const cv::Mat& depth) {
+  constexpr int kStep = 8;
+  constexpr double kFarthest_m = 100.0;
+  std::vector<double> values;
+  for (int row = 0; row < depth.rows; row += kStep) {
+    for (int column = 0; column < depth.cols; column += kStep) {
+      const float value = depth.at<float>(row, column);
+      if (value > 0.0f) values.push_back(value);
+    }
+  }
+  return !values.empty() && percentile(values, 0.5) > kFarthest_m;
+}
+
+DepthImage depthOfFloats(const cv::Mat& floats) {
+  const cv::Mat depth = withoutInvalid(floats);
+  const bool is_in_mm = isInMillimetres(depth);
+  return {depth, is_in_mm ? kMillimetre_m : 1.0, is_in_mm};
+}
+
+// Negative numbers are no depth.
+cv::Mat fromSigned(const cv::Mat& depth) {
+  cv::Mat unsigned_depth;
+  depth.convertTo(unsigned_depth, CV_16U);
+  return unsigned_depth;
+}
+
+// The encoding that a format begins with; empty where it names none, as "png" and "compressedDepth".
+std::string encodingOf(const std::string& format) {
+  const std::string name = lowered(format.substr(0, format.find(';')));
+  return contains(name, "compresseddepth") || contains(name, "png") ? "" : name;
+}
+
+// Where the image begins: behind the transport's header or, as a plain PNG, at once.
+struct Compressed {
+  CompressedDepthHeader header{};
+  bool has_header = false;
+  cv::Mat image;
+};
+
+Compressed decompress(const sensor_msgs::CompressedImage& message, const std::string& topic) {
+  constexpr size_t kHeader = sizeof(CompressedDepthHeader);
+  const unsigned char* data = message.data.data();
+  const size_t size = message.data.size();
+  Compressed result;
+  if (beginsAsPng(data, size)) {
+    result.image = decodePng16(data, size, topic);
+    return result;
+  }
+  const bool has_png = size > kHeader && beginsAsPng(data + kHeader, size - kHeader);
+  const bool has_rvl = contains(message.format, "rvl");
+  check(has_png || has_rvl || contains(message.format, "compressedDepth"),
+        topic + ": format '" + message.format +
+            "' is no depth; compressedDepth as png or rvl, and png of 16 bits are accepted");
+  check(size > kHeader, topic + ": the compressed image is empty");
+  std::memcpy(&result.header, data, kHeader);
+  result.has_header = true;
+  result.image = has_rvl && !has_png ? decodeRvl(data + kHeader, size - kHeader, topic)
+                                     : decodePng16(data + kHeader, size - kHeader, topic);
+  return result;
+}
+
 }  // namespace
 
 DepthImage depthFromImage(const sensor_msgs::Image& message, const std::string& topic) {
-  if (message.encoding == "32FC1") return {withoutInvalid(pixelsOf(message, CV_32FC1, topic).clone()), 1.0};
-  check(message.encoding == "16UC1" || message.encoding == "mono16",
+  const std::string encoding = lowered(message.encoding);
+  if (encoding == "32fc1") return depthOfFloats(pixelsOf(message, CV_32FC1, topic).clone());
+  if (encoding == "64fc1") {
+    cv::Mat floats;
+    pixelsOf(message, CV_64FC1, topic).convertTo(floats, CV_32F);
+    return depthOfFloats(floats);
+  }
+  if (encoding == "16sc1") return {fromSigned(pixelsOf(message, CV_16SC1, topic)), kMillimetre_m};
+  check(encoding == "16uc1" || encoding == "mono16" || encoding == "z16",
         topic + ": encoding '" + message.encoding + "' is no depth; 16UC1, mono16 and 32FC1 are accepted");
   return {pixelsOf(message, CV_16UC1, topic), kMillimetre_m};
 }
 
 DepthImage depthFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic) {
-  const size_t size = message.data.size();
-  if (!contains(message.format, "compressedDepth")) {
-    check(contains(message.format, "png"),
-          topic + ": format '" + message.format +
-              "' is no depth; compressedDepth as png and png of 16 bits are accepted");
-    return {decodePng16(message.data.data(), size, topic), kMillimetre_m};
-  }
-  check(!contains(message.format, "rvl"),
-        topic + ": format '" + message.format + "' is not accepted; record compressedDepth as png");
-  CompressedDepthHeader header{};
-  check(size > sizeof(header), topic + ": the compressed image is empty");
-  std::memcpy(&header, message.data.data(), sizeof(header));
-  const cv::Mat image = decodePng16(message.data.data() + sizeof(header), size - sizeof(header), topic);
-  const std::string encoding = message.format.substr(0, message.format.find(';'));
-  if (encoding == "32FC1") return {depthFromInverse(image, header), 1.0};
-  check(encoding == "16UC1" || encoding == "mono16",
+  const Compressed compressed = decompress(message, topic);
+  const std::string encoding = encodingOf(message.format);
+  const bool is_inverse =
+      encoding == "32fc1" || (encoding.empty() && compressed.has_header && compressed.header.quant_a > 0.0f);
+  const bool is_known = encoding.empty() || encoding == "16uc1" || encoding == "mono16";
+  check(is_known || (is_inverse && compressed.has_header),
         topic + ": format '" + message.format + "' is no depth; 16UC1 and 32FC1 are accepted");
-  return {image, kMillimetre_m};
+  if (is_inverse) return {depthFromInverse(compressed.image, compressed.header), 1.0};
+  return {compressed.image, kMillimetre_m};
 }
 
 }  // namespace depth_fusion

@@ -13,13 +13,15 @@ namespace depth_fusion {
 struct DepthImage {
   cv::Mat image;  // CV_16UC1 or CV_32FC1 in units of unit_m; 0, NaN = none
   double unit_m = 1.0;
+  bool is_in_unusual_unit = false;  // unit_m is a guess: as metres, the depth would be beyond all rooms
 };
 
-// Takes 16UC1 and mono16 (millimetres) and 32FC1 (metres).
+// Takes 16UC1, mono16, 16SC1 and Z16 (millimetres) and 32FC1 and 64FC1 (metres, or millimetres where metres
+// make no sense).
 DepthImage depthFromImage(const sensor_msgs::Image& message, const std::string& topic);
 
-// Takes what compressed_depth_image_transport sends as png (16UC1, or 32FC1 as quantised inverse depth), and
-// a plain PNG of 16 bits (millimetres).
+// Takes what compressed_depth_image_transport sends, as png or rvl (16UC1, or 32FC1 as quantised inverse
+// depth), and a plain PNG of 16 bits (millimetres). The data tell a PNG, whatever the format says.
 DepthImage depthFromCompressed(const sensor_msgs::CompressedImage& message, const std::string& topic);
 
 // Gives rgb, bgr, rgba, bgra, bayer_* (8 and 16 bits each), yuv422, yuv422_yuy2 and 8UC3 (taken for bgr8) as

@@ -9,6 +9,10 @@
 
 namespace depth_fusion {
 
+std::string withoutSlash(const std::string& frame) {
+  return frame.empty() || frame[0] != '/' ? frame : frame.substr(1);
+}
+
 ros::Time toRosTime(double stamp_s) {
   constexpr double kEndOfTime_s = 4294967296.0;
   check(stamp_s >= 0.0 && stamp_s < kEndOfTime_s,

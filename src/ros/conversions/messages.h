@@ -19,6 +19,9 @@ namespace depth_fusion {
 // apart, which the stamp of a faulty driver may be.
 inline double secondsBetween(const ros::Time& from, const ros::Time& to) { return to.toSec() - from.toSec(); }
 
+// The frame's name as tf2 takes it; tf had them with a slash before.
+std::string withoutSlash(const std::string& frame);
+
 // Throws Error for a stamp that ROS has no time for. 0, which means "no time" in ROS, becomes the smallest
 // time.
 ros::Time toRosTime(double stamp_s);

@@ -1,5 +1,7 @@
 #include "ros/input/rgbd_decoder.h"
 
+#include <ros/console.h>
+
 #include "depth_fusion/frames/y_down.h"
 
 namespace depth_fusion {
@@ -14,11 +16,15 @@ SensorFrame withDepth(const RgbdMessages& messages) {
   const DepthImage depth = toDepth(messages.depth, messages.depth_topic);
   frame.rgbd.depth = depth.image;
   frame.rgbd.depth_unit_m = depth.unit_m;
+  if (depth.is_in_unusual_unit)
+    ROS_WARN_STREAM_ONCE(messages.depth_topic
+                         << ": the numbers are too large for metres and taken for millimetres");
   frame.depth_message = messages.depth.raw;
   return frame;
 }
 
 void addColor(const RgbdMessages& messages, SensorFrame& frame) {
+  frame.rgbd.color_problem = messages.color_problem;
   if (messages.color.empty()) return;
   try {
     frame.rgbd.color = toColor(messages.color, messages.color_topic);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "common/nearest.h"
 #include "ros/conversions/messages.h"
@@ -18,6 +21,7 @@ void RgbdPairing::addDepth(const std::shared_ptr<RgbdMessages>& depth) { waiting
 
 void RgbdPairing::addColor(const ros::Time& stamp, const ImageMessage& image) {
   colors_.push_back({stamp, image});
+  color_has_come_ = true;
   if (colors_.size() > kColorsKept) colors_.pop_front();
 }
 
@@ -35,10 +39,17 @@ bool RgbdPairing::firstIsComplete(const ros::WallTime& now, bool color_comes) co
 RgbdMessagesPtr RgbdPairing::takeFirst() {
   const std::shared_ptr<RgbdMessages> taken = waiting_.front();
   waiting_.pop_front();
-  const Color* color = nearest(colors_, parameters_.max_gap_s, [&](const Color& candidate) {
-    return std::abs(secondsBetween(taken->header.stamp, candidate.stamp));
-  });
-  if (color != nullptr) taken->color = color->image;
+  const auto later_s = [&](const Color& color) { return secondsBetween(taken->header.stamp, color.stamp); };
+  const Color* color = nearest(colors_, std::numeric_limits<double>::max(),
+                               [&](const Color& candidate) { return std::abs(later_s(candidate)); });
+  const bool has_come = std::exchange(color_has_come_, false);
+  if (color != nullptr && std::abs(later_s(*color)) <= parameters_.max_gap_s) {
+    taken->color = color->image;
+    unpaired_.notePaired();
+  } else {  // a camera that is silent has no wrong clock
+    const auto gap_s = color != nullptr && has_come ? std::optional<double>(later_s(*color)) : std::nullopt;
+    taken->color_problem = unpaired_.noteUnpaired(gap_s, parameters_.max_gap_s);
+  }
   return taken;
 }
 

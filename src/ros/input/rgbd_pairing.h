@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "recording/unpaired_color.h"
 #include "ros/conversions/image_message.h"
 #include "ros/input/rgbd_parameters.h"
 
@@ -18,6 +19,7 @@ namespace depth_fusion {
 struct RgbdMessages {
   std_msgs::Header header;    // the depth image's, with the stamp that it goes on with
   ImageMessage depth, color;  // color is empty if there is none within max_gap_s
+  std::string color_problem;  // why there is none though colour comes
   std::string depth_topic, color_topic;
   uint32_t clock_jumps = 0;  // how often the clock had jumped back before
   ros::WallTime received;
@@ -60,6 +62,8 @@ class RgbdPairing {
   PairingParameters parameters_;
   std::deque<std::shared_ptr<RgbdMessages>> waiting_;
   std::deque<Color> colors_;
+  bool color_has_come_ = false;  // since a depth image was taken
+  UnpairedColor unpaired_;
 };
 
 }  // namespace depth_fusion

@@ -1,6 +1,7 @@
 #include "ros/input/rgbd_subscriber.h"
 
 #include "depth_fusion/common/error.h"
+#include "ros/conversions/messages.h"
 
 namespace depth_fusion {
 namespace {
@@ -44,6 +45,7 @@ void RgbdSubscriber::onDepth(const ImageMessage& image) {
   auto messages = std::make_shared<RgbdMessages>();
   messages->depth = image;
   messages->header = image.header();
+  messages->header.frame_id = withoutSlash(messages->header.frame_id);
   messages->received = ros::WallTime::now();
   messages->depth_topic = depth_.name();
   messages->color_topic = color_.name();

@@ -12,8 +12,8 @@ constexpr size_t kInfosKept = 30;
 
 // The colour camera's frame if it is not the depth camera's, else an empty name.
 std::string otherFrame(const sensor_msgs::CameraInfo* color, const std_msgs::Header& depth) {
-  if (color == nullptr || depth.frame_id.empty() || color->header.frame_id == depth.frame_id) return "";
-  return color->header.frame_id;
+  const std::string color_frame = color == nullptr ? "" : withoutSlash(color->header.frame_id);
+  return depth.frame_id.empty() || color_frame == depth.frame_id ? "" : color_frame;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "ros/nodelets/stage_nodelet.h"
 
+#include <nodelet/detail/callback_queue.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -15,6 +17,10 @@ constexpr double kReportPeriod_s = 1.0;
 constexpr int kSilentReports = 3;       // without a frame, before that is a problem
 constexpr uint64_t kFewestTooSlow = 5;  // one frame of so many may be skipped without a warning
 
+boost::shared_ptr<void> shared(ros::CallbackQueueInterface& queue) {
+  return dynamic_cast<nodelet::detail::CallbackQueue&>(queue).shared_from_this();
+}
+
 uint64_t droppedFor(const FrameAccount& account, const std::string& reason) {
   const auto found = std::find(account.reasons.begin(), account.reasons.end(), reason);
   return found == account.reasons.end()
@@ -29,6 +35,7 @@ void StageNodelet::onInit() {
     start();
   } catch (const std::exception& error) {
     NODELET_FATAL_STREAM(getName() << ": " << error.what());
+    kept_queues_ = {shared(getMTCallbackQueue()), shared(getSTCallbackQueue())};
     throw;
   }
 }

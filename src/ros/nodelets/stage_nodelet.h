@@ -61,6 +61,10 @@ class StageNodelet : public nodelet::Nodelet {
   CallbackGate callbacks_;  // makes every timer and service of the nodelet
 
  private:
+  // Of a nodelet that failed at its start, the loader gives up the callback queues before the nodelet itself
+  // goes, with all that roscpp still serves from them. They are kept here until then.
+  std::vector<boost::shared_ptr<void>> kept_queues_;  // first: the last to go
+
   void onInit() final;
   void refuseFromOtherProcess(const std::string& sender, Carries what);
   void report();

@@ -49,7 +49,6 @@ SurfaceMeshNodelet::~SurfaceMeshNodelet() { stopServing(); }
 
 void SurfaceMeshNodelet::start() {
   loadParameters(parameters_.table());
-  parameters_.checkTogether();
   if (parameters_.map.empty()) parameters_.map = getNodeHandle().resolveName("tsdf_fusion");
   advertise();
   update_timer_ = callbacks_.createWallTimer(getMTPrivateNodeHandle(),
@@ -59,7 +58,6 @@ void SurfaceMeshNodelet::start() {
 }
 
 void SurfaceMeshNodelet::applyParameters() {
-  parameters_.checkTogether();
   if (surface_ != nullptr) surface_->beginAnew();
   update_timer_.setPeriod(ros::WallDuration(1.0 / parameters_.publish_rate_hz));
 }

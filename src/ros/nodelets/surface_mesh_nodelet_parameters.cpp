@@ -1,8 +1,5 @@
 #include "ros/nodelets/surface_mesh_nodelet_parameters.h"
 
-#include "depth_fusion/common/error.h"
-#include "depth_fusion/surface_mesh/simplification.h"
-
 namespace depth_fusion {
 
 ParameterTable SurfaceMeshNodeletParameters::table() {
@@ -11,12 +8,6 @@ ParameterTable SurfaceMeshNodeletParameters::table() {
       number("publish_rate_hz", &publish_rate_hz, 0.1, 30.0, "of updates of the markers"),
       number("points_rate_hz", &points_rate_hz, 0.01, 30.0, "of the points and the blocks' boxes, at most")};
   return joined({mesh.table(), live.table(), own});
-}
-
-void SurfaceMeshNodeletParameters::checkTogether() const {
-  check(
-      live.triangle_share == 1.0f || canSimplify(),
-      "triangle_share must be 1: this depth_fusion was built without meshoptimizer, which simplifies meshes");
 }
 
 }  // namespace depth_fusion

@@ -16,8 +16,6 @@ struct SurfaceMeshNodeletParameters {
   float points_rate_hz = 1.0f;
 
   ParameterTable table();
-  // Throws Error for what this build cannot do.
-  void checkTogether() const;
 };
 
 }  // namespace depth_fusion

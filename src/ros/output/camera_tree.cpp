@@ -40,7 +40,9 @@ void CameraTree::receive(const tf2_msgs::TFMessage& message, bool is_static) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const ros::Time now = ros::Time::now();  // with the lock held, so that it goes back only if the clock does
   if (now < std::exchange(last_received_, now)) buffer_.clear();  // a simulated clock went back
-  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+  for (geometry_msgs::TransformStamped transform : message.transforms) {
+    transform.header.frame_id = withoutSlash(transform.header.frame_id);
+    transform.child_frame_id = withoutSlash(transform.child_frame_id);
     if (transform.header.frame_id == map_frame_ && transform.child_frame_id == left_out_) continue;
     if (!buffer_._frameExists(transform.child_frame_id)) grown_ = ros::WallTime::now();
     buffer_.setTransform(transform, "tf", is_static);

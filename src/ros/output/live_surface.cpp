@@ -123,18 +123,19 @@ Marker LiveSurface::markerOf(const std::string& frame_id, const MeshChunk& chunk
   lacking_.erase(id);
   if (chunk.mesh.triangles.empty()) return makeDeletion(frame_id, id);
   const double share = shareOf(chunk, left_bytes);
-  if (share < parameters_.triangle_share) coarse_.insert(chunk.index);
+  if (share < wholeShare()) coarse_.insert(chunk.index);
   return makeSurfaceMarker(frame_id, id, simplified(chunk.mesh, share, OpenBorders::kStay));
 }
 
 double LiveSurface::shareOf(const MeshChunk& chunk, double left_bytes) const {
-  const double whole_share = parameters_.triangle_share;
   const size_t others = std::min<size_t>(chunks_->changedCount(), parameters_.chunks_per_update);
-  if (others == 0 || !canSimplify()) return whole_share;
+  if (others == 0 || !canSimplify()) return wholeShare();
   const double fair_bytes = left_bytes / static_cast<double>(others + 1);
   const double fitting = fair_bytes / (kTriangleBytes * static_cast<double>(chunk.mesh.triangles.size()));
-  return std::min(whole_share, std::max(fitting, kCoarsest));
+  return std::min(wholeShare(), std::max(fitting, kCoarsest));
 }
+
+double LiveSurface::wholeShare() const { return canSimplify() ? parameters_.triangle_share : 1.0; }
 
 void LiveSurface::keepPoints(const MeshChunk& chunk) {
   points_changed_ = true;

@@ -58,6 +58,8 @@ class LiveSurface {
   visualization_msgs::Marker markerOf(const std::string& frame_id, const MeshChunk& chunk, double left_bytes);
   // The part of the chunk's triangles that its marker keeps.
   double shareOf(const MeshChunk& chunk, double left_bytes) const;
+  // The same where there is room for all that changes.
+  double wholeShare() const;
   void keepPoints(const MeshChunk& chunk);
 
   LiveSurfaceParameters parameters_;

@@ -11,8 +11,8 @@ ParameterTable LiveSurfaceParameters::table() {
                  "chunks that did not change, published once more at each update that has room, in turn, for "
                  "viewers that joined another of their process, or whose own queue is short; 0 = none"),
           number("triangle_share", &triangle_share, 0.001, 1.0,
-                 "part of a chunk's triangles that its marker keeps; below 1 takes less bandwidth and more "
-                 "of the CPU"),
+                 "part of a chunk's triangles that its marker keeps, flat ones first to go; all, if built "
+                 "without meshoptimizer"),
           number("max_bandwidth_mb_s", &max_bandwidth_mb_s, 0.1, 1000.0,
                  "MB/s to each viewer at most: while more than that changes, chunks are simplified, and come "
                  "whole when less does"),

@@ -23,15 +23,15 @@ namespace fs = std::filesystem;
 // On devices that run one kernel at a time, mapping waits for one of a batch at most.
 constexpr int kBatchBlocks = 512;
 
-constexpr const char* kNoSurface = "the map has no surface yet; nothing was written";
+constexpr const char* kStartWithColor = "start with color:=true (map/color)";
 
-// Passes a mesh on and counts it.
+// Passes a mesh on and counts it. An empty one is an Error that says `no_surface`.
 class CountingSink final : public MeshSink {
  public:
-  explicit CountingSink(MeshSink& sink) : sink_(sink) {}
+  CountingSink(MeshSink& sink, const std::string& no_surface) : sink_(sink), no_surface_(no_surface) {}
 
   void begin(const MeshSize& size) override {
-    check(size.triangles > 0, kNoSurface);
+    check(size.triangles > 0, no_surface_);
     size_ = size;
     sink_.begin(size);
   }
@@ -47,6 +47,7 @@ class CountingSink final : public MeshSink {
 
  private:
   MeshSink& sink_;
+  const std::string no_surface_;
   MeshSize size_;
 };
 
@@ -104,9 +105,13 @@ void checkFolder(const std::string& path) {
   check(!fs::is_directory(path), path + " is a folder; give the name of a file");
 }
 
-std::unique_ptr<WorldSnapshot> snapshotOf(SharedMap& map) {
+bool hasColor(SharedMap& map) {
+  return map.locked([](FusedMap& fused) { return fused.map().parameters().color; });
+}
+
+std::unique_ptr<WorldSnapshot> snapshotOf(SharedMap& map, const std::string& no_surface) {
   return map.locked([&](FusedMap& fused) {
-    check(!fused.isEmpty(), kNoSurface);
+    check(!fused.isEmpty(), no_surface);
     return std::make_unique<WorldSnapshot>(fused.submaps());
   });
 }
@@ -128,9 +133,13 @@ ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& reque
   const std::string path = absolutePath(request.path);
   checkFolder(path);
   const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format);
-  CountingSink sink(*file);
+  const bool lacks_color = request.color && !hasColor(map);
+  const std::string no_surface =
+      std::string("the map has no surface yet; nothing was written") +
+      (lacks_color ? std::string("; it will have no colour: ") + kStartWithColor : "");
+  CountingSink sink(*file, no_surface);
 
-  const std::unique_ptr<WorldSnapshot> snapshot = snapshotOf(map);
+  const std::unique_ptr<WorldSnapshot> snapshot = snapshotOf(map, no_surface);
   const std::unique_ptr<ComputeContext> queue = map.compute->anotherQueue();
   SurfaceMeshParameters batches = parameters;
   batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);
@@ -145,8 +154,8 @@ ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& reque
   ExportMesh::Response response;
   response.success = true;
   response.message = path;
-  if (request.color && !snapshot->hasColor())
-    response.message += "; without colour, for the map has none: start with color:=true (map/color)";
+  if (lacks_color)
+    response.message += std::string("; without colour, for the map has none: ") + kStartWithColor;
   response.vertices = sink.size().vertices;
   response.triangles = sink.size().triangles;
   response.bytes = fs::file_size(path);

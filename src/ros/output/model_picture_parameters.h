@@ -9,7 +9,7 @@ namespace depth_fusion {
 
 struct ModelPictureParameters {
   std::string picture = "shaded";
-  float picture_rate_hz = 15.0f;
+  float picture_rate_hz = 5.0f;
 
   ParameterTable table();
 };

@@ -12,6 +12,7 @@ constexpr uint32_t kQueue = 10;
 constexpr double kPathStep_m = 0.02;
 constexpr double kPathStep_rad = 0.05;
 constexpr size_t kMaxPath = 5000;
+constexpr double kPathBytes_s = 1e5;  // a long path goes out less often
 
 }  // namespace
 
@@ -62,12 +63,14 @@ void PosePublisher::addToPath(const std_msgs::Header& header, const Pose& T_map_
     for (size_t i = 0; i < kMaxPath / 2; ++i) path_.poses[i] = path_.poses[2 * i];
     path_.poses.erase(path_.poses.begin() + kMaxPath / 2, path_.poses.begin() + kMaxPath);
   }
+  if (path_publisher_.getNumSubscribers() == 0) return;
+  const ros::WallTime now = ros::WallTime::now();
+  const double period_s = ros::serialization::serializationLength(path_) / kPathBytes_s;
+  if ((now - last_path_).toSec() < period_s) return;
+  last_path_ = now;
   publishPath();
 }
 
-void PosePublisher::publishPath() {
-  if (path_publisher_.getNumSubscribers() > 0)
-    path_publisher_.publish(boost::make_shared<nav_msgs::Path>(path_));
-}
+void PosePublisher::publishPath() { path_publisher_.publish(boost::make_shared<nav_msgs::Path>(path_)); }
 
 }  // namespace depth_fusion

@@ -31,6 +31,7 @@ class PosePublisher {
   std::string problem() const { return transforms_.problem(); }
 
  private:
+  // A path that has grown is sent, at a rate that keeps its bytes a second bounded.
   void addToPath(const std_msgs::Header& header, const Pose& T_map_camera);
   void publishPath();
 
@@ -39,6 +40,7 @@ class PosePublisher {
   ViewerAids viewer_aids_;
   std::mutex path_mutex_;  // of the path, which late viewers get whole
   nav_msgs::Path path_;
+  ros::WallTime last_path_;                         // when it was sent
   Pose T_map_last_ = Pose::Identity();              // of the path
   ros::Publisher pose_publisher_, path_publisher_;  // last: the path's viewers are served from the others
 };

@@ -31,6 +31,7 @@ SurfacePublisher::SurfacePublisher(ros::NodeHandle& handle) : traffic_(kQueue) {
 
 void SurfacePublisher::update(const std::shared_ptr<SharedMap>& map, const LiveSurfaceParameters& live,
                               const SurfaceMeshParameters& mesh, double points_rate_hz, StageTimers& timers) {
+  budget_.refill(1e6 * live.max_bandwidth_mb_s, ros::WallTime::now());
   if (map == nullptr || markerViewers() + pointViewers() == 0) {
     surface_.reset();
   } else {
@@ -43,8 +44,8 @@ void SurfacePublisher::update(const std::shared_ptr<SharedMap>& map, const LiveS
       publishPoints(map->frame_id);
     }
   }
-  if (map != nullptr && block_publisher_.getNumSubscribers() > 0 && isDue(last_blocks_, points_rate_hz) &&
-      blocksChanged(*map))
+  if (map != nullptr && block_publisher_.getNumSubscribers() > 0 && budget_.left() > 0.0 &&
+      isDue(last_blocks_, points_rate_hz) && blocksChanged(*map))
     publishBlocks(*map);
 }
 
@@ -53,7 +54,6 @@ void SurfacePublisher::updateSurface(const std::shared_ptr<SharedMap>& map, cons
   if (surface_ == nullptr || !surface_->follows(map))
     surface_ = std::make_unique<LiveSurface>(map, live, mesh);
   if (has_late_viewer_.exchange(false)) surface_->showAll();
-  budget_.refill(1e6 * live.max_bandwidth_mb_s, ros::WallTime::now());
   const visualization_msgs::MarkerArrayPtr markers =
       surface_->update({markerViewers() > 0, pointViewers() > 0, traffic_.isOver()}, budget_);
   if (!markers->markers.empty()) surface_->noteLost(traffic_.publish(marker_publisher_, markers));
@@ -78,9 +78,11 @@ bool SurfacePublisher::blocksChanged(SharedMap& map) {
 }
 
 void SurfacePublisher::publishBlocks(SharedMap& map) {
-  block_publisher_.publish(map.locked([&](FusedMap& fused) {
+  const auto blocks = map.locked([&](FusedMap& fused) {
     return boost::make_shared<visualization_msgs::Marker>(makeBlockMarker(map.frame_id, fused.map()));
-  }));
+  });
+  budget_.spend(ros::serialization::serializationLength(*blocks));
+  block_publisher_.publish(blocks);
 }
 
 }  // namespace depth_fusion

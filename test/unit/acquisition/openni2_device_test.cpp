@@ -1,8 +1,10 @@
 // Cameras and .oni files through OpenNI2 itself, with a driver of ours beside it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "depth_fusion/acquisition/oni_recording.h"
 #include "support/expect_error.h"
@@ -31,6 +33,13 @@ class OpenNi2Device : public testing::Test {
       if (image.stream == stream) return image;
     }
     return std::nullopt;
+  }
+
+  // Of the first or last frame for an index beyond.
+  bool isColorOf(const cv::Mat& color, int index) const {
+    const int last = static_cast<int>(frames_.size()) - 1;
+    return cv::norm(color, frames_[static_cast<size_t>(std::clamp(index, 0, last))].color, cv::NORM_INF) ==
+           0.0;
   }
 
   std::string uriOf(const std::string& device_id) {
@@ -199,6 +208,9 @@ TEST_F(OpenNi2Device, AnOniFileGivesEveryFrameInOrder) {
   for (int pass = 0; pass < 3; ++pass) {
     const auto recording = openOni(path, {});
     size_t shown = 0, count = 0, colored = 0;
+    // Depth and colour have no common time in the file: colour is off by a frame at most, and by the same
+    // throughout.
+    std::set<int> shifts = {-1, 0, 1};
     double last_s = -1.0;
     while (const auto frame = recording->next()) {
       ++count;
@@ -211,7 +223,10 @@ TEST_F(OpenNi2Device, AnOniFileGivesEveryFrameInOrder) {
       EXPECT_NEAR(frame->intrinsics.cy, 59.5, 1e-9);
       if (frame->color.empty()) continue;
       ++colored;
-      EXPECT_EQ(cv::norm(frame->color, frames_[shown].color, cv::NORM_INF), 0.0) << "frame " << count;
+      for (const int shift : {-1, 0, 1}) {
+        if (!isColorOf(frame->color, static_cast<int>(shown) + shift)) shifts.erase(shift);
+      }
+      ASSERT_FALSE(shifts.empty()) << "frame " << count;
     }
     EXPECT_EQ(shown, frames_.size() - 1);
     EXPECT_EQ(count, recording->frameCount());

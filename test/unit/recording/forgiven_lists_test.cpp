@@ -67,6 +67,81 @@ TEST_F(ForgivenLists, depth_list_by_any_editor) {
   }
 }
 
+TEST_F(ForgivenLists, stamps_with_decimal_commas) {
+  writeText(folder_ / "depth.txt", "1,0 depth/1.png\n2,000000 depth/2.png\n");
+  writeText(folder_ / "rgb.txt", "1,01\trgb/1.png\n1,99\trgb/2.png\n");
+  expectBoth("two lists", true);
+  fs::remove(folder_ / "depth.txt");
+  fs::remove(folder_ / "rgb.txt");
+  writeText(folder_ / "associations.txt", "1,0 depth/1.png 1,5 rgb/1.png\n2,0 depth/2.png 2,5 rgb/2.png\n");
+  expectBoth("associations", true);
+}
+
+// The folder was moved since, or the names begin with its own.
+TEST_F(ForgivenLists, names_that_lead_elsewhere_are_found_by_their_ends) {
+  const std::string name = fs::path(folder_.path()).filename().string();
+  for (const std::string& begin :
+       {std::string("/home/somebody/data/"), std::string("C:\\data\\"), name + "/"}) {
+    writeText(folder_ / "depth.txt", "1.0 " + begin + "depth/1.png\n2.0 " + begin + "depth/2.png\n");
+    expectBoth(begin, false);
+  }
+  writeText(folder_ / "depth.txt", "1.0 depth/1.png\n2.0 /data/depth/3.png\n");
+  const auto recording = openFolder(folder_.path(), {});
+  EXPECT_TRUE(recording->next().has_value());
+  expectError([&] { recording->next(); }, {"data/depth/3.png", "No such file"});
+}
+
+TEST_F(ForgivenLists, equal_stamps_are_said) {
+  writeText(folder_ / "depth.txt", "1.0 depth/1.png\n1.0 depth/2.png\n");
+  const std::string description = openFolder(folder_.path(), {})->description();
+  EXPECT_NE(description.find("1 of the 2 images of " + (folder_ / "depth.txt")), std::string::npos)
+      << description;
+}
+
+TEST_F(ForgivenLists, images_of_which_none_is_depth_are_named_at_once) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_16UC3}) {
+    for (const char* name : {"depth/1.png", "depth/2.png"})
+      cv::imwrite(folder_ / name, cv::Mat(8, 12, type, cv::Scalar::all(7)));
+    writeText(folder_ / "depth.txt", "1.0 depth/1.png\n2.0 depth/2.png\n");
+    expectError([&] { openFolder(folder_.path(), {}); }, {folder_ / "depth.txt", "16 bits", "depth/1.png"});
+  }
+  // Where one of them is, the others cost themselves.
+  cv::imwrite(folder_ / "depth/2.png", randomDepth(2));
+  const auto recording = openFolder(folder_.path(), {});
+  expectError([&] { recording->next(); }, {"depth/1.png", "16 bits"});
+  EXPECT_EQ(recording->next()->stamp_s, 2.0);
+}
+
+TEST_F(ForgivenLists, colour_of_another_clock_is_said) {
+  std::string depth, color;
+  for (int i = 1; i <= 8; ++i) {
+    depth += std::to_string(i) + ".0 depth/1.png\n";
+    color += std::to_string(1600000000 + i) + ".0 rgb/1.png\n";
+  }
+  writeText(folder_ / "depth.txt", depth);
+  writeText(folder_ / "rgb.txt", color);
+  const auto recording = openFolder(folder_.path(), {});
+  std::string problem;
+  for (int i = 1; i <= 8; ++i) {
+    const auto frame = recording->next();
+    EXPECT_FALSE(frame->depth.empty());
+    EXPECT_TRUE(frame->color.empty());
+    problem = frame->color_problem;
+  }
+  for (const char* word : {"20 ms", "1.6e+09 s later", "one clock"})
+    EXPECT_NE(problem.find(word), std::string::npos) << problem;
+}
+
+// Every third depth image has colour.
+TEST_F(ForgivenLists, colour_at_a_lower_rate_is_no_problem) {
+  std::string depth;
+  for (int i = 0; i < 30; ++i) depth += std::to_string(1.0 + 0.1 * i) + " depth/1.png\n";
+  writeText(folder_ / "depth.txt", depth);
+  writeText(folder_ / "rgb.txt", "1.0 rgb/1.png\n1.3 rgb/1.png\n1.6 rgb/1.png\n1.9 rgb/1.png\n");
+  const auto recording = openFolder(folder_.path(), {});
+  while (const auto frame = recording->next()) EXPECT_EQ(frame->color_problem, "");
+}
+
 TEST_F(ForgivenLists, names_with_blanks_and_hashes) {
   fs::rename(folder_ / "depth/1.png", folder_ / "depth/scan 1 of#2.png");
   writeText(folder_ / "depth.txt", "1.0 depth/scan 1 of#2.png\n2.0 depth/2.png\n");

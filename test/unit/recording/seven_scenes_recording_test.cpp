@@ -123,6 +123,28 @@ TEST(SevenScenesRecording, poses_that_cannot_be_read_cost_no_depth_and_are_named
   expectBadPose("-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "no rotation");
 }
 
+TEST(SevenScenesRecording, one_bad_pose_file_costs_itself_and_is_said_where_somebody_listens) {
+  const TemporaryFolder folder;
+  makeFolder(folder);
+  writeText(frameFile(folder, "000002", ".pose.txt"), "1 0 0 0.5\n0 1 0 0\n0 0 1 0\n");
+  writeText(frameFile(folder, "000010", ".pose.txt"), "");
+  std::string remark;
+  const Trajectory poses = readPoses(folder.path(), &remark);
+  ASSERT_EQ(poses.size(), 1u) << "a matrix without its last row is a pose";
+  EXPECT_EQ(poses[0].T_W_D.translation().x(), 0.5);
+  EXPECT_EQ(remark.find("1 pose file left out: " + frameFile(folder, "000010", ".pose.txt")), 0u) << remark;
+}
+
+TEST(SevenScenesRecording, takes_intrinsics_as_other_tools_write_them) {
+  const TemporaryFolder folder;
+  makeFolder(folder);
+  for (const char* text : {"11 0 6 0\r\n0 12 4 0\r\n0 0 1 0\r\n0 0 0 1\r\n", "11 0 6 0\n0 12 4 0\n0 0 1 0\n",
+                           "11,0 0 6,0\n0 12,0 4,0\n0 0 1\n", "11;0;6\n0;12;4\n0;0;1\n"}) {
+    writeText(folder / "camera-intrinsics.txt", text);
+    expectSameIntrinsics(openFolder(folder.path(), {})->next()->intrinsics, {12, 8, 11.0, 12.0, 6.0, 4.0});
+  }
+}
+
 TEST(SevenScenesRecording, names_bad_files_and_goes_on) {
   const TemporaryFolder folder;
   makeFolder(folder);
@@ -155,7 +177,7 @@ TEST(SevenScenesRecording, names_bad_intrinsics_and_folders_without_depth) {
   const std::string first = frameFile(folder, "000002", ".depth.png");
   writeText(first, "no image");
   writeText(frameFile(folder, "000010", ".depth.png"), "no image");
-  expectError([&] { openFolder(folder.path(), {}); }, {folder.path(), "none of its depth images", first});
+  expectError([&] { openFolder(folder.path(), {}); }, {folder.path(), "none of its 2 files", first});
   fs::remove(first);
   fs::remove(frameFile(folder, "000010", ".depth.png"));
   expectError([&] { openFolder(folder.path(), {}); }, {folder.path(), "no recording"});

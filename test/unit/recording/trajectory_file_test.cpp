@@ -102,6 +102,31 @@ TEST(TrajectoryFile, names_what_it_cannot_read) {
   expectError([&] { readTrajectory(folder.path()); }, {folder.path()});
 }
 
+TEST(TrajectoryFile, lines_that_are_no_poses_are_left_out_and_said_where_somebody_listens) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "t.txt";
+  const std::string texts[] = {"timestamp,tx,ty,tz,qx,qy,qz,qw\n1,0,0,0,0,0,0,1\n2,1,0,0,0,0,0,1\n",
+                               "1 0 0 0 0 0 0 1\r\n2 1 0 0 0 0 0 1\r\n3 1 0 0",
+                               "1 0 0 0 0 0 0 1\nlost\n2 1 0 0 0 0 0 1\n"};
+  for (const std::string& text : texts) {
+    writeText(path, text);
+    std::string remark;
+    EXPECT_EQ(readTrajectory(path, &remark).size(), 2u) << text;
+    EXPECT_EQ(remark.find("1 line left out: " + path + ":"), 0u) << remark;
+  }
+  writeText(path, "1 0 0 0 0 0 0\n2 0 0 0 0 0 0\n");
+  std::string remark;
+  expectError([&] { readTrajectory(path, &remark); }, {path + ":1", "is not a pose"});
+}
+
+TEST(TrajectoryFile, takes_decimal_commas) {
+  const TemporaryFolder folder;
+  writeText(folder / "t.txt", "1,5 -0,25 1,0e+1 3 0,0 0,0 0,0 1,0\n");
+  const Trajectory read = readTrajectory(folder / "t.txt");
+  EXPECT_EQ(read[0].stamp_s, 1.5);
+  EXPECT_TRUE(read[0].T_W_D.translation().isApprox(Eigen::Vector3d(-0.25, 10.0, 3.0)));
+}
+
 TEST(TrajectoryFile, says_when_it_cannot_write) {
   const TemporaryFolder folder;
   expectError([&] { writeTrajectory(folder / "no/t.txt", {}); }, {folder / "no/t.txt", "cannot be written"});

@@ -65,6 +65,41 @@ TEST_F(BagCamerasTest, finds_the_colour_camera_by_its_info_and_tf) {
   EXPECT_NE(unconnected->description().find("color_frame"), std::string::npos) << unconnected->description();
 }
 
+TEST_F(BagCamerasTest, says_that_a_camera_changes) {
+  const auto makeWith = [&](double later_focal_px) {
+    return makeBag([&](rosbag::Bag& bag) {
+      for (int i = 0; i < 50; ++i) {
+        addToBag(bag, kDepthInfo, 1.0 + 0.1 * i,
+                 infoMessage(kTestWidth, kTestHeight, i < 30 ? 10.0 : later_focal_px));
+        addDepth(bag, 1.0 + 0.1 * i);
+      }
+    });
+  };
+  const auto recording = openBag(makeWith(8.5), {});
+  EXPECT_NE(recording->description().find("changes, from a focal length of 10 to 8.5"), std::string::npos)
+      << recording->description();
+  EXPECT_EQ(recording->next()->intrinsics.fx, 10.0);
+  EXPECT_EQ(openBag(makeWith(10.0), {})->description().find("changes"), std::string::npos);
+}
+
+TEST_F(BagCamerasTest, refuses_lenses_that_cannot_be_taken_out_of_depth) {
+  const std::pair<const char*, std::vector<double>> lenses[] = {
+      {"thin prism", {0.01, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.001, 0.0, 0.0, 0.0}},
+      {"tilt", {0.01, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.01, 0.0}},
+      {"folds", {-9.0, 0.0, 0.0, 0.0}},
+      {"no number", {std::nan(""), 0.0, 0.0, 0.0}}};
+  for (const auto& [word, lens] : lenses) {
+    const std::string path = makeBag([&lens = lens](rosbag::Bag& bag) {
+      sensor_msgs::CameraInfo info = infoMessage(kTestWidth, kTestHeight, 10.0);
+      info.distortion_model = "rational_polynomial";
+      info.D = lens;
+      addToBag(bag, kDepthInfo, 1.0, info);
+      addDepth(bag, 1.0);
+    });
+    expectError([&] { openBag(path, {}); }, {path, kDepthInfo, word});
+  }
+}
+
 TEST_F(BagCamerasTest, asks_for_missing_intrinsics_and_takes_given_ones) {
   const std::string path = makeBag([](rosbag::Bag& bag) {
     addDepth(bag, 1.0);

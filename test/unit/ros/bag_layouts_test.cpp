@@ -115,6 +115,10 @@ TEST_F(BagLayoutsTest, whatever_is_wrong_with_the_colour_camera_leaves_colour_ou
       {"not 7", [](auto& info) { info.distortion_model = "plumb_bob", info.D.assign(7, 0.1); }},
       {"640x480", [](auto& info) { info.width = 640, info.height = 480; }},
       {"not valid", [](auto& info) { info.K[2] = 100.0, info.P[2] = -5.0; }},
+      {"folds",
+       [](auto& info) {
+         info.distortion_model = "plumb_bob", info.D = {-9.0, 0.0, 0.0, 0.0, 0.0};
+       }},
       {"no number", [](auto& info) { info.K[0] = info.P[0] = std::nan(""); }}};
   for (const auto& [word, spoil] : faults) {
     const std::string path = makeBag([&spoil = spoil](rosbag::Bag& bag) {
@@ -130,6 +134,51 @@ TEST_F(BagLayoutsTest, whatever_is_wrong_with_the_colour_camera_leaves_colour_ou
     EXPECT_FALSE(frame->depth.empty()) << word;
     EXPECT_TRUE(frame->color.empty()) << word;
   }
+}
+
+TEST_F(BagLayoutsTest, colour_of_another_clock_is_said) {
+  const std::string path = makeBag([](rosbag::Bag& bag) {
+    addInfo(bag);
+    for (int i = 0; i < 30; ++i) {
+      addGray(bag, 99.0 + 0.1 * i, 50, 1.0);
+      addDepth(bag, 100.0 + 0.1 * i);
+    }
+  });
+  const auto recording = openRecording(path, {});
+  std::string problem;
+  for (int i = 0; i < 30; ++i) {
+    const auto frame = recording->next();
+    EXPECT_FALSE(frame->depth.empty());
+    EXPECT_TRUE(i >= 4 || frame->color_problem.empty()) << i;
+    if (!frame->color_problem.empty()) problem = frame->color_problem;
+  }
+  EXPECT_NE(problem.find("s earlier: let both be stamped by one clock"), std::string::npos) << problem;
+}
+
+TEST_F(BagLayoutsTest, several_cameras_are_named) {
+  const std::string path = makeBag([](rosbag::Bag& bag) {
+    addInfo(bag, "/a/depth/camera_info");
+    addInfo(bag, "/b/depth/camera_info");
+    addToBag(bag, "/a/depth/image_raw", 1.0, imageMessage(randomDepth(1), "16UC1"));
+    addToBag(bag, "/b/depth/image_raw", 1.0, imageMessage(randomDepth(2), "16UC1"));
+  });
+  const std::string description = openRecording(path, {})->description();
+  EXPECT_NE(description.find("there is more depth: /b/depth/image_raw"), std::string::npos) << description;
+  RecordingOptions options;
+  options.depth_topic = "/b/depth/image_raw";
+  EXPECT_TRUE(sameImage(openRecording(path, options)->next()->depth, randomDepth(2)));
+}
+
+TEST_F(BagLayoutsTest, depth_that_says_metres_and_means_millimetres_is_said) {
+  const std::string path = makeBag([](rosbag::Bag& bag) {
+    addInfo(bag);
+    cv::Mat millimetres;
+    randomDepth(1).convertTo(millimetres, CV_32F);
+    addToBag(bag, kDepthTopic, 1.0, imageMessage(millimetres, "32FC1"));
+  });
+  const auto recording = openRecording(path, {});
+  EXPECT_NE(recording->description().find("taken for millimetres"), std::string::npos);
+  EXPECT_EQ(recording->next()->depth_unit_m, 0.001);
 }
 
 TEST_F(BagLayoutsTest, colour_of_many_coefficients_is_used) {

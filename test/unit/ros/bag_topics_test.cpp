@@ -38,11 +38,28 @@ TEST(BagTopics, finds_the_depth_of_known_drivers) {
             "/camera/depth/image_raw/compressedDepth");
 }
 
+// It may be a PNG of 16 bits, or a picture.
+TEST(BagTopics, depth_compressed_as_a_picture_comes_last) {
+  const BagTopic picture = compressed("/camera/depth_registered/image_raw/compressed");
+  EXPECT_EQ(depthOf({picture}), picture.name);
+  EXPECT_EQ(depthOf({picture, compressed("/camera/depth/image_raw/compressedDepth")}),
+            "/camera/depth/image_raw/compressedDepth");
+  EXPECT_EQ(depthOf({picture, image("/camera/depth/image_rect")}), "/camera/depth/image_rect");
+}
+
+TEST(BagTopics, knows_the_depth_of_other_cameras) {
+  const std::vector<BagTopic> topics = {image("/front/depth/image_raw"), image("/front/depth/image_rect"),
+                                        compressed("/front/depth/image_raw/compressedDepth"),
+                                        image("/rear/depth/image_raw"), image("/rear/rgb/image_raw")};
+  EXPECT_EQ(depthOf(topics), "/front/depth/image_raw");
+  EXPECT_EQ(rivalsOf(topics[0], topics), std::vector<std::string>{"/rear/depth/image_raw"});
+  EXPECT_TRUE(rivalsOf(topics[1], topics).empty());
+}
+
 TEST(BagTopics, takes_nothing_else_for_depth) {
   EXPECT_EQ(depthOf({image("/camera/depth/disparity"),
                      image("/camera/ir/depth_like"),
                      image("/camera/rgb/image_raw"),
-                     compressed("/camera/depth/image_raw/compressed"),
                      image("/camera/depth/infra1/image_rect_raw"),
                      image("/camera/depth/confidence"),
                      {"/camera/depth/points", "sensor_msgs/PointCloud2"}}),

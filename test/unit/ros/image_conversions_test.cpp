@@ -62,6 +62,34 @@ TEST(ImageConversions, makes_every_invalid_distance_nan) {
   EXPECT_EQ(depth.at<float>(1, 4), 2.5f);
 }
 
+TEST(ImageConversions, reads_depth_by_other_names) {
+  const cv::Mat depth = randomDepth(1) / 2;  // what fits into 15 bits
+  for (const char* encoding : {"16uc1", "MONO16", "Z16", "16SC1"}) {
+    const sensor_msgs::Image message = imageMessage(depth, encoding, 6);
+    const DepthImage read = depthFromImage(message, kTopic);
+    EXPECT_TRUE(sameImage(read.image, depth)) << encoding;
+    EXPECT_EQ(read.unit_m, 0.001);
+  }
+  const cv::Mat below_zero(2, 3, CV_16SC1, cv::Scalar(-1));
+  EXPECT_EQ(cv::countNonZero(depthFromImage(imageMessage(below_zero, "16SC1"), kTopic).image), 0);
+  cv::Mat doubles;
+  metresOf(depth).convertTo(doubles, CV_64F);
+  EXPECT_TRUE(sameImage(depthFromImage(imageMessage(doubles, "64FC1"), kTopic).image, metresOf(depth)));
+}
+
+TEST(ImageConversions, floats_that_are_too_large_for_metres_are_millimetres) {
+  cv::Mat millimetres;
+  randomDepth(1).convertTo(millimetres, CV_32F);
+  const DepthImage read = depthFromImage(imageMessage(millimetres, "32FC1"), kTopic);
+  EXPECT_TRUE(read.is_in_unusual_unit);
+  EXPECT_EQ(read.unit_m, 0.001);
+  const DepthImage usual = depthFromImage(imageMessage(metresOf(randomDepth(1)), "32FC1"), kTopic);
+  EXPECT_FALSE(usual.is_in_unusual_unit);
+  EXPECT_EQ(usual.unit_m, 1.0);
+  const cv::Mat none = cv::Mat::zeros(8, 12, CV_32FC1);
+  EXPECT_FALSE(depthFromImage(imageMessage(none, "32FC1"), kTopic).is_in_unusual_unit);
+}
+
 TEST(ImageConversions, reads_big_endian_depth) {
   sensor_msgs::Image message = imageMessage(withSwappedBytes(randomDepth(1)), "16UC1", 4);
   message.is_bigendian = 1;
@@ -107,6 +135,38 @@ TEST(ImageConversions, reads_compressed_depth_of_16_bits) {
   EXPECT_TRUE(sameImage(depthFromCompressed(plain_png, kTopic).image, randomDepth(1)));
 }
 
+// The data tell what they are.
+TEST(ImageConversions, reads_compressed_depth_whatever_the_format_says) {
+  for (const char* format : {"compressedDepth", "png", "", "16UC1", "16UC1; compressedDepth rvl"}) {
+    const DepthImage depth = depthFromCompressed(compressedDepthMessage(randomDepth(1), format), kTopic);
+    EXPECT_TRUE(sameImage(depth.image, randomDepth(1))) << format;
+    EXPECT_DOUBLE_EQ(depth.unit_m, 0.001);
+  }
+  const auto without_header = compressedMessage(randomDepth(1), ".png", "16UC1; compressedDepth");
+  EXPECT_TRUE(sameImage(depthFromCompressed(without_header, kTopic).image, randomDepth(1)));
+}
+
+// Two zeros, and three others, whose differences 5, 1, -2 stand as 10, 2, 3; 10 takes two nibbles, of which
+// the first has 8 for "more follows".
+TEST(ImageConversions, reads_depth_that_rvl_compressed) {
+  sensor_msgs::CompressedImage message;
+  message.format = "16UC1; compressedDepth rvl";
+  message.data.assign(12, 0);
+  const uint32_t words[] = {3, 2, 0x23a12310u, 0u};  // 3x2 pixels; nibbles 2 3 a1 2 3 1 0
+  const auto* bytes = reinterpret_cast<const unsigned char*>(words);
+  message.data.insert(message.data.end(), bytes, bytes + sizeof(words));
+  const DepthImage depth = depthFromCompressed(message, kTopic);
+  EXPECT_TRUE(sameImage(depth.image, (cv::Mat_<uint16_t>(2, 3) << 0, 0, 5, 6, 4, 0)));
+  EXPECT_EQ(depth.unit_m, 0.001);
+
+  message.data.resize(22);
+  expectError([&] { depthFromCompressed(message, kTopic); }, {kTopic, "truncated"});
+  message.data[12] = message.data[13] = message.data[14] = message.data[15] = 0xff;
+  expectError([&] { depthFromCompressed(message, kTopic); }, {kTopic, "corrupt"});
+  message.data.resize(20);
+  expectError([&] { depthFromCompressed(message, kTopic); }, {kTopic, "empty"});
+}
+
 // The transport quantises 1/depth: with depth_max 10 m and quantisation 100, A = 100 * 101 and B = 1 - A
 // / 10.
 TEST(ImageConversions, reads_compressed_depth_in_metres) {
@@ -138,7 +198,6 @@ TEST(ImageConversions, names_topic_and_what_is_accepted) {
   const auto expectBadDepth = [](const sensor_msgs::CompressedImage& message, const std::string& word) {
     expectError([&] { depthFromCompressed(message, kTopic); }, {kTopic, word});
   };
-  expectBadDepth(compressedDepthMessage(randomDepth(1), "16UC1; compressedDepth rvl"), "rvl");
   expectBadDepth(compressedDepthMessage(randomDepth(1), "8UC1; compressedDepth"), "8UC1");
   expectBadDepth(compressedDepthMessage(gray, "16UC1; compressedDepth"), "16 bits");
   expectBadDepth(compressedMessage(gray, ".jpg", "jpeg"), "jpeg");

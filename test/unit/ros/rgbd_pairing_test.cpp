@@ -91,6 +91,23 @@ TEST_F(RgbdPairingTest, AClockSetBackLeavesNothingFromBefore) {
   expectPair(100.0, 0.0);
 }
 
+TEST_F(RgbdPairingTest, ColourOfAnotherClockIsSaid) {
+  std::string problem;
+  for (int i = 0; i < 10; ++i) {
+    addColor(100.0 + 0.033 * i);
+    addDepth(500.0 + 0.033 * i);
+    const RgbdMessagesPtr taken = pairing_.takeFirst();
+    EXPECT_TRUE(taken->color.empty());
+    problem = taken->color_problem;
+  }
+  EXPECT_NE(problem.find("400 s earlier"), std::string::npos) << problem;
+  addColor(501.0);
+  addDepth(501.0);
+  EXPECT_EQ(pairing_.takeFirst()->color_problem, "");
+  addDepth(501.03);
+  EXPECT_EQ(pairing_.takeFirst()->color_problem, "") << "one without is none";
+}
+
 TEST_F(RgbdPairingTest, OnlyTheLatestColourIsKept) {
   for (int i = 0; i <= 30; ++i) addColor(100.0 + i);
   addDepth(100.0);
