@@ -76,11 +76,12 @@ void releasePages(MDB_env* environment) {
   // LMDB does not tell where it has mapped the file.
   std::ifstream mappings("/proc/self/maps");
   for (std::string line; std::getline(mappings, line);) {
-    size_t begin = 0, end = 0, inode = 0;
-    const int found = std::sscanf(line.c_str(), "%zx-%zx %*s %*s %*s %zu", &begin, &end, &inode);
-    if (found == 3 && inode == file.st_ino)
-      madvise(reinterpret_cast<void*>(begin), end - begin,
-              MADV_DONTNEED);  // NOLINT(performance-no-int-to-ptr)
+    void *begin = nullptr, *end = nullptr;
+    size_t inode = 0;
+    const int found = std::sscanf(line.c_str(), "%p-%p %*s %*s %*s %zu", &begin, &end, &inode);
+    if (found != 3 || inode != file.st_ino) continue;
+    const auto bytes = static_cast<char*>(end) - static_cast<char*>(begin);
+    madvise(begin, static_cast<size_t>(bytes), MADV_DONTNEED);
   }
 }
 

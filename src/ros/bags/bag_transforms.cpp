@@ -11,8 +11,8 @@ namespace {
 
 void addTransforms(const rosbag::MessageInstance& place, const BagFiles& bags, tf2::BufferCore& tf) {
   try {
-    for (geometry_msgs::TransformStamped transform :
-         readMessage<tf2_msgs::TFMessage>(place, bags)->transforms) {
+    const auto message = readMessage<tf2_msgs::TFMessage>(place, bags);
+    for (geometry_msgs::TransformStamped transform : message->transforms) {
       transform.header.frame_id = withoutSlash(transform.header.frame_id);
       transform.child_frame_id = withoutSlash(transform.child_frame_id);
       tf.setTransform(transform, "bag", place.getTopic() == "/tf_static");
