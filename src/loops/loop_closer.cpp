@@ -1,7 +1,6 @@
 #include "depth_fusion/loops/loop_closer.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "depth_fusion/common/error.h"
 #include "loops/graph_way.h"
+#include "loops/largest_sigma.h"
 
 namespace depth_fusion {
 namespace {
@@ -25,11 +25,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
-
-double largestSigma(const Eigen::Matrix3d& covariance) {
-  return std::sqrt(
-      std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues().maxCoeff()));
-}
 
 // Of the difference between two motions, in standard deviations of both.
 double sigmasBetween(const Pose& T_a_b, const Pose& other_T_a_b, const Matrix6d& covariance) {

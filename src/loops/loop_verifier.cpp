@@ -1,10 +1,10 @@
 #include "depth_fusion/loops/loop_verifier.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "loops/feature_alignment.h"
+#include "loops/largest_sigma.h"
 #include "loops/view_surface.h"
 
 namespace depth_fusion {
@@ -13,11 +13,6 @@ namespace {
 // Features are measured in two images of one moment each, whose depth and colour need not be of the same:
 // their own covariance is too small by far.
 constexpr double kFeatureDoubt = 9.0;
-
-double largestSigma(const Eigen::Matrix3d& covariance) {
-  return std::sqrt(
-      std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues().maxCoeff()));
-}
 
 // Of the twist on the right: the new camera's own place and orientation, whatever the distance.
 Matrix6d aboutNewCamera(const Pose& T_old_new, const Matrix6d& covariance) {

@@ -32,6 +32,7 @@ int movedAlong(int origin, int n, int first, int last, int edge) {
   const int below = alignedDown(origin, edge);
   return last < below + n ? below : alignedDown(origin + edge - 1, edge);
 }
+
 }  // namespace
 
 bool SubmapCollection::moveWindow() {
