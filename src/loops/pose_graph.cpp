@@ -1,8 +1,6 @@
 #include "depth_fusion/loops/pose_graph.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 
@@ -89,12 +87,6 @@ std::vector<uint32_t> PoseGraph::parts() const {
   return parents;
 }
 
-double PoseGraph::sigmasOf(size_t edge) const {
-  const GraphEdge& loop = edges_[edge];
-  const Vector6d twist = twistFromPose(pose(loop.from).inverse() * pose(loop.to) * loop.T_from_to.inverse());
-  return std::sqrt(std::max(0.0, twist.dot(loop.covariance.ldlt().solve(twist))));
-}
-
 // It may ask for so many standard deviations of drift; beside that, its loops have noise.
 double PoseGraph::allowance(size_t loops) const {
   constexpr double kOfALoop = 12.0;  // twice what is to be expected of six residuals
@@ -125,7 +117,8 @@ void PoseGraph::setUndone(const std::set<uint32_t>& closures) {
 GraphSolver PoseGraph::solver(const std::vector<Pose>& start) const {
   GraphSolver solver(start, edges_, parts());
   for (size_t i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i].down_D) solver.addGravity(i, *nodes_[i].down_D, down_W_, parameters_.gravity_sigma_rad);
+    if (nodes_[i].down_D)
+      solver.addGravity(i, *nodes_[i].down_D, Eigen::Vector3d::UnitY(), parameters_.gravity_sigma_rad);
   }
   return solver;
 }
@@ -173,9 +166,8 @@ GraphChange PoseGraph::solve() {
   }
   strain_ = strain;
   for (size_t i = 0; i < nodes_.size(); ++i) {
-    const Pose motion = before[i].inverse() * nodes_[i].T_W_D;
-    change.largest_move_m = std::max(change.largest_move_m, motion.translation().norm());
-    change.largest_turn_rad = std::max(change.largest_turn_rad, rotationAngle(motion));
+    const double move_m = (before[i].inverse() * nodes_[i].T_W_D).translation().norm();
+    change.largest_move_m = std::max(change.largest_move_m, move_m);
   }
   return change;
 }

@@ -26,8 +26,8 @@ struct GraphEdge {
 
 // What solve() did.
 struct GraphChange {
-  std::vector<uint32_t> undone, restored;               // closures
-  double largest_move_m = 0.0, largest_turn_rad = 0.0;  // of a node
+  std::vector<uint32_t> undone, restored;  // closures
+  double largest_move_m = 0.0;             // of a node
   int iterations = 0;
 };
 
@@ -38,9 +38,8 @@ class PoseGraph {
  public:
   explicit PoseGraph(const LoopParameters& parameters);
 
-  // Nodes are numbered from 0 on. `down_D`: the measured direction of gravity, W's being along `down_W`.
+  // Nodes are numbered from 0 on. `down_D`: the measured direction of gravity, which is along y in W.
   uint32_t addNode(const Pose& T_W_D, const std::optional<Eigen::Vector3d>& down_D = std::nullopt);
-  void setDown(const Eigen::Vector3d& down_W) { down_W_ = down_W.normalized(); }
   // The sensor went from one node to the other; the covariance is that of its drift on this way, and what the
   // tracker's own adds to it.
   void addWay(uint32_t from, uint32_t to, const Pose& T_from_to, double way_m,
@@ -59,8 +58,6 @@ class PoseGraph {
   const std::vector<GraphEdge>& edges() const { return edges_; }
   // The edges that meet in a node, those that are undone among them.
   const std::vector<uint32_t>& edgesOf(uint32_t node) const { return nodes_[node].edges; }
-  // How far an edge is from the poses, in standard deviations.
-  double sigmasOf(size_t edge) const;
   size_t bytes() const;
 
  private:
@@ -87,7 +84,6 @@ class PoseGraph {
   void addEdge(GraphEdge edge);
 
   LoopParameters parameters_;
-  Eigen::Vector3d down_W_ = Eigen::Vector3d::UnitY();
   std::vector<Node> nodes_;
   std::vector<GraphEdge> edges_;
   double strain_ = 0.0;  // the sum of all squares after the last solve()
