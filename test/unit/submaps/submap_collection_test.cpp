@@ -70,6 +70,8 @@ TEST(SubmapCollection, NothingIsLostWhileTheStoreCannotBeRead) {
   parameters.store = server.uri("scratch");
   Walk walk(windowOf(35), parameters);
   for (double x = 0.0; x < 60.0; x += 0.05) walk.goTo(x);
+  for (int i = 0; i < 600 && walk.submaps().usage().groups_on_disk == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   ASSERT_GT(walk.submaps().usage().groups_on_disk, 0u);
   server.stop();
   std::set<std::string> problems;
