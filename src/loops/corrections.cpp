@@ -1,7 +1,7 @@
 #include "depth_fusion/loops/corrections.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
+#include <numeric>
 
 namespace depth_fusion {
 namespace {
@@ -12,33 +12,32 @@ Pose carried(const CorrectedKeyframe& keyframe, const Pose& T_W_D) {
 
 }  // namespace
 
-Pose Corrections::corrected(const Pose& T_W_D, double way_m) const {
-  if (keyframes_.empty()) return T_W_D;
-  const auto after =
-      std::upper_bound(keyframes_.begin(), keyframes_.end(), way_m,
-                       [](double way, const CorrectedKeyframe& keyframe) { return way < keyframe.way_m; });
-  if (after == keyframes_.begin()) return carried(keyframes_.front(), T_W_D);
-  if (after == keyframes_.end()) return carried(keyframes_.back(), T_W_D);
-  const CorrectedKeyframe& before = *(after - 1);
-  return interpolate({before.way_m, carried(before, T_W_D)}, {after->way_m, carried(*after, T_W_D)}, way_m);
+Corrections::Corrections(std::vector<CorrectedKeyframe> keyframes)
+    : keyframes_(std::move(keyframes)), by_time_(keyframes_.size()) {
+  std::iota(by_time_.begin(), by_time_.end(), size_t{0});
+  std::stable_sort(by_time_.begin(), by_time_.end(),
+                   [this](size_t a, size_t b) { return keyframes_[a].stamp_s < keyframes_[b].stamp_s; });
 }
 
-Pose Corrections::meanMotion(const std::vector<uint32_t>& indices) const {
-  if (indices.empty()) return Pose::Identity();
-  Eigen::Vector3d middle_then = Eigen::Vector3d::Zero(), middle_now = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d turns = Eigen::Matrix3d::Zero();
-  for (const uint32_t index : indices) {
-    const CorrectedKeyframe& keyframe = keyframes_.at(index);
-    middle_then += keyframe.T_W_then.translation() / static_cast<double>(indices.size());
-    middle_now += keyframe.T_W_now.translation() / static_cast<double>(indices.size());
-    turns += keyframe.T_W_now.linear() * keyframe.T_W_then.linear().transpose();
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(turns, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant());
-  Pose motion = Pose::Identity();
-  motion.linear() = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  motion.translation() = middle_now - motion.linear() * middle_then;
-  return motion;
+Pose Corrections::corrected(const StampedPose& tracked) const {
+  if (keyframes_.empty()) return tracked.T_W_D;
+  const auto next =
+      std::upper_bound(by_time_.begin(), by_time_.end(), tracked.stamp_s,
+                       [this](double stamp_s, size_t i) { return stamp_s < keyframes_[i].stamp_s; });
+  const CorrectedKeyframe& before = keyframes_[next == by_time_.begin() ? *next : *(next - 1)];
+  const Pose by_before = carried(before, tracked.T_W_D);
+  if (next == by_time_.begin() || next == by_time_.end()) return by_before;
+  const CorrectedKeyframe& after = keyframes_[*next];
+  return interpolate({before.stamp_s, by_before}, {after.stamp_s, carried(after, tracked.T_W_D)},
+                     tracked.stamp_s);
+}
+
+double Corrections::largestMove_m() const {
+  double largest_m = 0.0;
+  for (const CorrectedKeyframe& keyframe : keyframes_)
+    largest_m =
+        std::max(largest_m, (keyframe.T_W_now.translation() - keyframe.T_W_then.translation()).norm());
+  return largest_m;
 }
 
 }  // namespace depth_fusion

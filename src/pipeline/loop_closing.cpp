@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "depth_fusion/common/error.h"
@@ -15,13 +16,20 @@ namespace {
 
 constexpr size_t kMostWaiting = 8;
 constexpr int kNiceness = 10;  // of the thread: tracking comes first
+constexpr int kJpegQuality = 90;
 
 std::string rowKey(uint32_t number) { return "keyframe " + std::to_string(number); }
 
+std::string jpegOf(const cv::Mat& color) {
+  std::vector<uchar> bytes;
+  cv::imencode(".jpg", color, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  return {bytes.begin(), bytes.end()};
+}
+
 }  // namespace
 
-LoopClosing::LoopClosing(const LoopParameters& parameters)
-    : parameters_(parameters), thread_([this] { run(); }) {}
+LoopClosing::LoopClosing(const LoopParameters& parameters, WhenBusy when_busy, bool keeps_color)
+    : parameters_(parameters), when_busy_(when_busy), keeps_color_(keeps_color), thread_([this] { run(); }) {}
 
 LoopClosing::~LoopClosing() {
   {
@@ -32,20 +40,33 @@ LoopClosing::~LoopClosing() {
   thread_.join();
 }
 
-void LoopClosing::add(double stamp_s, const FrameFeatures& features, const Pose& T_W_D,
-                      const ModelView& view) {
+void LoopClosing::add(const RgbdFrame& frame, const FrameFeatures& features, const Pose& T_W_D,
+                      const ModelView& view, uint32_t world) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!isOf(world)) return;
   if (last_W_) way_m_ += (T_W_D.translation() - last_W_->translation()).norm();
   last_W_ = T_W_D;
-  if (!features.reason.empty() || !isKeyframe(T_W_D)) return;
-  auto keyframe = std::make_shared<Keyframe>(keyframeOf(features, T_W_D, stamp_s));
-  keyframe->view = KeyframeView(readImage(view.depth, view.camera), view.camera, parameters_.view_width_px);
-  keyframe->way_m = way_m_;
-  std::optional<KeyframeMotion> motion;
-  if (last_keyframe_W_) motion = KeyframeMotion{last_keyframe_W_->inverse() * T_W_D};
+  if (!features.reason.empty() || !problem_.empty() || !isKeyframe(T_W_D)) return;
+  const auto has_room = [this] { return waiting_.size() < kMostWaiting; };
+  if (when_busy_ == WhenBusy::kLeaveOut && !has_room()) return;
+  const double way_m = way_m_;
+  lock.unlock();
+  Waiting added;
+  added.keyframe = std::make_shared<Keyframe>(keyframeOf(features, T_W_D, frame.stamp_s));
+  added.keyframe->view =
+      KeyframeView(readImage(view.depth, view.camera), view.camera, parameters_.view_width_px);
+  added.keyframe->way_m = way_m;
+  if (keeps_color_ && colorProblem(frame).empty()) {
+    added.color = frame.color.clone();
+    added.keyframe->color = {"", colorCamera(frame), frame.T_C_D.value_or(Pose::Identity())};
+  }
+  lock.lock();
+  is_idle_.wait(lock, has_room);
+  if (!isOf(world)) return;
+  if (last_keyframe_W_) added.motion = KeyframeMotion{last_keyframe_W_->inverse() * T_W_D};
+  added.T_W_then = T_W_D;
   last_keyframe_W_ = T_W_D;
-  std::unique_lock<std::mutex> lock(mutex_);
-  is_idle_.wait(lock, [this] { return waiting_.size() < kMostWaiting; });
-  if (problem_.empty()) waiting_.push_back({std::move(keyframe), motion});
+  waiting_.push_back(std::move(added));
   has_work_.notify_one();
 }
 
@@ -57,8 +78,29 @@ bool LoopClosing::isKeyframe(const Pose& T_W_D) const {
 }
 
 void LoopClosing::beginAnew() {
+  const std::lock_guard<std::mutex> lock(mutex_);
   last_W_.reset();
   last_keyframe_W_.reset();
+}
+
+uint32_t LoopClosing::adopt(const Corrections& applied) {
+  const std::vector<CorrectedKeyframe>& moved = applied.keyframes();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (moved.empty()) return world_;
+  const Pose T_new_old = orthonormalized(moved.back().T_W_now * moved.back().T_W_then.inverse());
+  for (size_t i = 0; i < known_.size(); ++i)
+    known_[i].T_W_then = i < moved.size() ? moved[i].T_W_now : T_new_old * known_[i].T_W_then;
+  for (Waiting& waiting : waiting_) waiting.T_W_then = T_new_old * waiting.T_W_then;
+  if (last_W_) last_W_ = T_new_old * *last_W_;
+  if (last_keyframe_W_) last_keyframe_W_ = T_new_old * *last_keyframe_W_;
+  constexpr double kNoMove_m = 1e-6;
+  is_moved_ = Corrections(known_).largestMove_m() > kNoMove_m;  // by what came while these were applied
+  return ++world_;
+}
+
+uint32_t LoopClosing::world() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return world_;
 }
 
 void LoopClosing::finish() {
@@ -71,9 +113,14 @@ std::vector<LoopCandidate> LoopClosing::takeCandidates() {
   return std::exchange(candidates_, {});
 }
 
+Corrections LoopClosing::keyframes() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return Corrections(known_);
+}
+
 Corrections LoopClosing::corrections() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return corrections_;
+  return is_moved_ ? Corrections(known_) : Corrections();
 }
 
 std::string LoopClosing::problem() const {
@@ -83,28 +130,25 @@ std::string LoopClosing::problem() const {
 
 void LoopClosing::run() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
-  LoopCloser closer(parameters_, [this](uint32_t number) { return load(number); });
+  LoopCloser closer(parameters_, [this](uint32_t number) { return keyframe(number); });
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
     has_work_.wait(lock, [this] { return ends_ || !waiting_.empty(); });
     if (ends_) return;
-    const Waiting added = waiting_.front();
+    Waiting added = waiting_.front();
     lock.unlock();
     LoopReport report;
-    Corrections corrections;
     std::string problem;
     try {
-      keep(static_cast<uint32_t>(closer.graph().size()), *added.keyframe);
-      report = closer.add(added.keyframe, added.motion);
-      if (report.poses_changed) corrections = closer.corrections();
+      compare(closer, added, report);
     } catch (const std::exception& error) {
       problem = error.what();
     }
     lock.lock();
-    candidates_.insert(candidates_.end(), report.candidates.begin(), report.candidates.end());
-    if (report.poses_changed) corrections_ = std::move(corrections);
-    waiting_.pop_front();
-    if (!problem.empty()) {
+    if (problem.empty()) {
+      note(closer, report);
+      waiting_.pop_front();
+    } else {
       problem_ = "loops are not sought any more: " + problem;
       waiting_.clear();
     }
@@ -112,15 +156,33 @@ void LoopClosing::run() {
   }
 }
 
+void LoopClosing::compare(LoopCloser& closer, Waiting& added, LoopReport& report) {
+  if (!added.color.empty()) added.keyframe->color.jpeg = jpegOf(added.color);
+  keep(static_cast<uint32_t>(closer.graph().size()), *added.keyframe);
+  report = closer.add(added.keyframe, added.motion);
+}
+
+void LoopClosing::note(const LoopCloser& closer, const LoopReport& report) {
+  candidates_.insert(candidates_.end(), report.candidates.begin(), report.candidates.end());
+  known_.push_back(
+      {waiting_.front().keyframe->stamp_s, waiting_.front().T_W_then, closer.pose(report.number)});
+  if (!report.poses_changed) return;
+  for (uint32_t number = 0; number < known_.size(); ++number) known_[number].T_W_now = closer.pose(number);
+  is_moved_ = true;
+}
+
 void LoopClosing::keep(uint32_t number, const Keyframe& keyframe) {
+  const std::lock_guard<std::mutex> lock(store_mutex_);
   if (keyframes_ == nullptr) keyframes_ = openScratch("");
   const std::unique_ptr<DatabaseWriter> writer = keyframes_->write();
   writer->put(rowKey(number), keyframeRow(keyframe));
   writer->commit();
 }
 
-KeyframePtr LoopClosing::load(uint32_t number) {
-  const std::optional<std::string> row = keyframes_->read()->get(rowKey(number));
+KeyframePtr LoopClosing::keyframe(uint32_t number) {
+  const std::lock_guard<std::mutex> lock(store_mutex_);
+  const std::optional<std::string> row =
+      keyframes_ == nullptr ? std::nullopt : keyframes_->read()->get(rowKey(number));
   check(row.has_value(), "a keyframe is not where it was kept");
   return std::make_shared<const Keyframe>(parseKeyframe(*row, "a keyframe"));
 }

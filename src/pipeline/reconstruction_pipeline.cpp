@@ -31,8 +31,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   ahead_.prepare();
   fuseAndRender(frame, result);
   ahead_.wait();
-  if (loops_ && result.fusion.fused())
-    loops_->add(frame.stamp_s, session_.features(), result.tracking.T_W_D, *view_);
+  if (loops_ && result.fusion.fused()) loops_->add(frame, session_.features(), result.tracking.T_W_D, *view_);
   session_.conclude(result.fusion.fused());
   return result;
 }

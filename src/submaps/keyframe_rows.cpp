@@ -63,22 +63,28 @@ cv::Mat readThumbnail(ByteReader& bytes) {
 }
 
 void writeLoopPart(ByteWriter& bytes, const Keyframe& keyframe) {
-  bytes.number(keyframe.submap);
   bytes.number(keyframe.stamp_s);
   bytes.number(keyframe.way_m);
   bytes.text(keyframe.view.packed());
   if (!keyframe.view.isEmpty()) write(bytes, keyframe.view.camera());
+  bytes.text(keyframe.color.jpeg);
+  if (keyframe.color.jpeg.empty()) return;
+  write(bytes, keyframe.color.camera);
+  write(bytes, keyframe.color.T_C_D);
 }
 
 // Rows of format 2 end before it.
 void readLoopPart(ByteReader& bytes, Keyframe& keyframe) {
-  keyframe.submap = bytes.number<uint32_t>();
   keyframe.stamp_s = bytes.number<double>();
   keyframe.way_m = bytes.number<double>();
   check(std::isfinite(keyframe.stamp_s) && std::isfinite(keyframe.way_m),
         bytes.where() + " has a time or a way that is none");
   std::string view = bytes.text();
   if (!view.empty()) keyframe.view = KeyframeView(readCamera(bytes), std::move(view), bytes.where());
+  keyframe.color.jpeg = bytes.text();
+  if (keyframe.color.jpeg.empty()) return;
+  keyframe.color.camera = readCamera(bytes);
+  keyframe.color.T_C_D = readPose(bytes);
 }
 
 }  // namespace

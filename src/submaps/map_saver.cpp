@@ -44,6 +44,8 @@ void removeMap(DatabaseWriter& writer, const std::string& name) {
 
 MapSaver::MapSaver(std::string location) : location_(std::move(location)) {}
 
+MapSaver::MapSaver(std::shared_ptr<Database> database) : database_(std::move(database)) {}
+
 MapSaver::~MapSaver() = default;
 
 void MapSaver::capture(SubmapCollection& submaps, const MapDescription& description,
@@ -94,7 +96,7 @@ void MapSaver::adopt(SubmapCollection& submaps, const LoadedMap& stored) {
 }
 
 void MapSaver::prepare() {
-  if (database_ == nullptr || !database_->isThere())
+  if (database_ == nullptr || (!location_.empty() && !database_->isThere()))
     database_ = openDatabase(location_, DatabaseAccess::kWrite);
   everything_changed_ = everything_changed_ || !isWritten(*database_->read());
 }

@@ -64,7 +64,8 @@ TEST(Replay, ABagBecomesPosesAndAMapAndNoFrameIsUnaccountedFor) {
   Listener<MapStatus> map(handle, "tsdf_fusion/status");
   const Diagnostics diagnostics(handle);
   ASSERT_TRUE(eventually([&] { return tracker.connected() && map.connected(); }));
-  ros::WallDuration(2.0).sleep();  // until the nodelets have found each other
+  // The nodelets have found each other.
+  diagnostics.await("texture_odometry", [](const auto& said) { return valueOf(said, "trackers") == "1"; });
   // Slowly, for the test machine has more to do; the services are called meanwhile.
   std::thread player([&] {
     EXPECT_EQ(std::system(("rosbag play --quiet --clock --delay=1 --rate=0.2 " + path).c_str()), 0);

@@ -13,10 +13,7 @@ namespace depth_fusion {
 constexpr int kLoopViewWidth_px = 320;
 
 inline Keyframe loopKeyframe(const RgbdFrame& frame, const Pose& T_W_D, double way_m) {
-  Keyframe keyframe;
-  keyframe.features = TextureOdometry({}).extract(frame);
-  keyframe.features.smoothed_levels.clear();
-  keyframe.T_W_D = T_W_D;
+  Keyframe keyframe = keyframeOf(TextureOdometry({}).extract(frame), T_W_D, frame.stamp_s);
   keyframe.view = KeyframeView(frame.depth, frame.intrinsics, kLoopViewWidth_px);
   keyframe.way_m = way_m;
   return keyframe;
@@ -31,6 +28,7 @@ class LoopScene {
   RgbdFrame frame(const Pose& T_scene_D, uint64_t seed) const {
     return frameOf(render(scene_.surface, camera_, T_scene_D), scene_.sensor, camera_, seed);
   }
+  const Scene& surface() const { return scene_.surface; }
   Keyframe keyframe(const Pose& T_scene_D, const Pose& T_W_D, double way_m, uint64_t seed) const {
     return loopKeyframe(frame(T_scene_D, seed), T_W_D, way_m);
   }

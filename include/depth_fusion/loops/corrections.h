@@ -1,7 +1,7 @@
 // What closed loops make of poses that were tracked before.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -10,7 +10,7 @@
 namespace depth_fusion {
 
 struct CorrectedKeyframe {
-  double way_m = 0.0;                // that the sensor had gone
+  double stamp_s = 0.0;
   Pose T_W_then = Pose::Identity();  // as it was tracked
   Pose T_W_now = Pose::Identity();
 };
@@ -18,20 +18,20 @@ struct CorrectedKeyframe {
 class Corrections {
  public:
   Corrections() = default;
-  // In the order of their way.
-  explicit Corrections(std::vector<CorrectedKeyframe> keyframes) : keyframes_(std::move(keyframes)) {}
+  // The keyframes in any order.
+  explicit Corrections(std::vector<CorrectedKeyframe> keyframes);
 
-  // A pose that was tracked after so much way: what the keyframes before and after make of it, blended by
-  // way.
-  Pose corrected(const Pose& T_W_D, double way_m) const;
-  // The one rigid motion of W that fits the keyframes of these indices best, of a submap for instance: the
-  // mean of theirs about their middle. The identity for none.
-  Pose meanMotion(const std::vector<uint32_t>& indices) const;
+  // A pose as it was tracked: what the keyframes before and after make of it, blended by time.
+  Pose corrected(const StampedPose& tracked) const;
+  // How far the keyframe is moved that is moved most.
+  double largestMove_m() const;
 
+  // As they were given.
   const std::vector<CorrectedKeyframe>& keyframes() const { return keyframes_; }
 
  private:
   std::vector<CorrectedKeyframe> keyframes_;
+  std::vector<size_t> by_time_;  // their indices
 };
 
 }  // namespace depth_fusion

@@ -60,6 +60,7 @@ class LoopCloser {
   // What there is of a keyframe beside the graph and the index.
   struct Known {
     KeyframePtr keyframe;  // null where it is loaded
+    double stamp_s = 0.0;
     double way_m = 0.0;
     Pose T_W_then = Pose::Identity();
   };

@@ -1,9 +1,9 @@
 // A frame of the past that a new one can be matched to.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <string>
 #include <vector>
 
 #include "depth_fusion/frames/frame_features.h"
@@ -15,6 +15,13 @@ namespace depth_fusion {
 constexpr int kThumbnailWidth_px = 32;
 constexpr int kThumbnailHeight_px = 24;
 
+// A frame's colour image, in few bytes.
+struct KeyframeColor {
+  std::string jpeg;  // empty: none
+  CameraIntrinsics camera;
+  Pose T_C_D = Pose::Identity();
+};
+
 // It takes some 200 kB.
 struct Keyframe {
   FrameFeatures features;  // without the smoothed images
@@ -24,7 +31,7 @@ struct Keyframe {
 
   // What loops are closed by; a keyframe of the relocaliser alone has none of it.
   KeyframeView view;    // the map as the depth camera saw it then
-  uint32_t submap = 0;  // that was active
+  KeyframeColor color;  // the frame's, where the map has colour
   double way_m = 0.0;   // that the sensor had gone
 };
 

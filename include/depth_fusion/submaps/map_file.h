@@ -45,6 +45,8 @@ class MapSaver {
  public:
   // The place is as openDatabase has it.
   explicit MapSaver(std::string location);
+  // Saves there, wherever that is.
+  explicit MapSaver(std::shared_ptr<Database> database);
   ~MapSaver();
 
   // The map is the one that is stored there: saves write what changes from now on.
@@ -80,8 +82,8 @@ class MapSaver {
   void writeSubmaps(DatabaseWriter& writer, const StoredGroups& stored, SaveReport& report) const;
   WrittenKeyframes writeKeyframes(DatabaseWriter& writer, bool all) const;
 
-  std::string location_;
-  std::unique_ptr<Database> database_;  // null before it is needed
+  std::string location_;                // empty: the database was given
+  std::shared_ptr<Database> database_;  // null before it is needed
   std::optional<MapSubscription> changes_;
   uint32_t generation_ = 0;  // of the map that changes_ is of
   std::optional<Capture> captured_;

@@ -27,16 +27,15 @@ std::string tableOf(const std::vector<LoopCandidate>& candidates, size_t& closed
 
 }  // namespace
 
-LoopResults resultsOf(LoopClosing& loops, const Trajectory& tracked, const std::vector<double>& ways_m) {
+LoopResults resultsOf(LoopClosing& loops, const Trajectory& tracked) {
   loops.finish();
   LoopResults results;
   results.table = tableOf(loops.takeCandidates(), results.closed);
   const Corrections corrections = loops.corrections();
-  for (size_t i = 0; i < tracked.size(); ++i) {
-    const Pose T_W_D = corrections.corrected(tracked[i].T_W_D, ways_m[i]);
-    results.moved_m =
-        std::max(results.moved_m, (T_W_D.translation() - tracked[i].T_W_D.translation()).norm());
-    results.corrected.push_back({tracked[i].stamp_s, T_W_D});
+  for (const StampedPose& pose : tracked) {
+    const Pose T_W_D = corrections.corrected(pose);
+    results.moved_m = std::max(results.moved_m, (T_W_D.translation() - pose.T_W_D.translation()).norm());
+    results.corrected.push_back({pose.stamp_s, T_W_D});
   }
   return results;
 }

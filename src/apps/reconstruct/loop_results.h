@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "depth_fusion/pipeline/loop_closing.h"
 
@@ -15,8 +14,8 @@ struct LoopResults {
   double moved_m = 0.0;  // the pose that is moved most
 };
 
-// Waits until all keyframes are compared. `ways_m`: of the sensor, up to each of the poses.
-LoopResults resultsOf(LoopClosing& loops, const Trajectory& tracked, const std::vector<double>& ways_m);
+// Waits until all keyframes are compared.
+LoopResults resultsOf(LoopClosing& loops, const Trajectory& tracked);
 
 // The keyframes where the trajectory has them. Those that it does not have are left out.
 Keyframes movedTo(const Trajectory& trajectory, const Keyframes& keyframes);

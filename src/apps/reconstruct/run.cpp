@@ -98,7 +98,7 @@ void Run::fuseRecording() {
     log_.begin(*frame);
     std::optional<RgbdFrame> next = mayReadOn() ? nextFrame() : std::nullopt;
     const FrameResult result = fuse(*frame, next ? &*next : nullptr);
-    log_.note(*frame, result, pipeline_->loops() != nullptr ? pipeline_->loops()->way_m() : 0.0);
+    log_.note(*frame, result);
     if (const auto depth = pipeline_->depth()) log_.noteNoise(options_.parameters.depth_sensor, *depth);
     showProgress(false);
     frame = std::move(next);
@@ -159,7 +159,7 @@ FrameResult Run::fuse(const RgbdFrame& frame, const RgbdFrame* next) {
 }
 
 void Run::applyLoops() {
-  const LoopResults loops = resultsOf(*pipeline_->loops(), log_.trajectory(), log_.ways_m());
+  const LoopResults loops = resultsOf(*pipeline_->loops(), log_.trajectory());
   const std::string problem = pipeline_->loops()->problem();
   if (!problem.empty()) log_.complain(problem);
   writeText(options_.output + "/loops.csv", loops.table);

@@ -29,12 +29,11 @@ void RunLog::begin(const RgbdFrame& frame) {
     warn(frame.stamp_problem + ", and so with others like it");
 }
 
-void RunLog::note(const RgbdFrame& frame, const FrameResult& result, double way_m) {
+void RunLog::note(const RgbdFrame& frame, const FrameResult& result) {
   if (result.tracking.status == TrackingStatus::kLost) return noteLoss(result.tracking.reason);
   noteTracked(result.tracking);
   if (result.color.fused) ++counts_.colored;
   trajectory_.push_back({frame.stamp_s, result.tracking.T_W_D});
-  ways_m_.push_back(way_m);
   noteFusion(result.fusion);
 }
 
@@ -56,7 +55,6 @@ void RunLog::noteBegin(const std::string& reason) {
   counts_.lost += trajectory_.size();
   counts_.tracked = counts_.degenerate = counts_.colored = 0;
   trajectory_.clear();
-  ways_m_.clear();
 }
 
 void RunLog::noteLoss(const std::string& reason) {

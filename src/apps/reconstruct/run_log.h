@@ -20,8 +20,6 @@ class RunLog {
   const RunCounts& counts() const { return counts_; }
   // The poses of the tracked frames.
   const Trajectory& trajectory() const { return trajectory_; }
-  // The sensor's way up to each of them.
-  const std::vector<double>& ways_m() const { return ways_m_; }
   // Whether anything was complained of.
   bool failed() const { return failed_; }
 
@@ -29,7 +27,7 @@ class RunLog {
   void begin(const RgbdFrame& frame);
   // The sensor is searched for in a map that was loaded.
   void searchInMap() { is_searched_for_ = true; }
-  void note(const RgbdFrame& frame, const FrameResult& result, double way_m);
+  void note(const RgbdFrame& frame, const FrameResult& result);
   // Says once if the noise is not what the sensor model says.
   void noteNoise(const DepthSensorParameters& sensor, const DepthFrame& depth);
   // Says each reason once.
@@ -64,7 +62,6 @@ class RunLog {
   const std::string input_;
   RunCounts counts_;
   Trajectory trajectory_;
-  std::vector<double> ways_m_;
   std::string status_;  // of the last frame
   std::set<std::string> said_unreadable_;
   bool is_lost_ = false;          // the frame before

@@ -49,7 +49,7 @@ MappingOutcome FrameMapper::fuse(const TrackedFrame& frame, FusedMap& map, Stage
                                                         parameters_.depth_sensor);
   const DepthFrame& depth =
       frame.depth ? *frame.depth : preprocessor_->process(rgbd, motion_.moveTo(rgbd.stamp_s, T_W_D), timers);
-  map.noteCameraPosition(T_W_D.translation());
+  map.noteFrame(rgbd.stamp_s, T_W_D.translation());
   const MappingResult result = map.mapper(camera_).fuse(rgbd, depth, T_W_D, admission_.isExternal(), timers);
   if (!result.fusion.fused()) return {false, false, notFusedReason()};
   last_pose_ = {rgbd.stamp_s, T_W_D};
@@ -68,8 +68,25 @@ void FrameMapper::load(FusedMap& map, ReadMap& stored, const std::string& name, 
   const MapDescription& description = stored.loaded().description;
   map.load(stored, name);
   admission_.noteReset(reset);
+  move_.reset();
   last_pose_ = description.last_pose;
   prepare(description.camera);
+  renderLast(map);
+}
+
+void FrameMapper::replace(FusedMap& map, ReadMap& refined, const std::string& name,
+                          const Corrections& corrections) {
+  MapMove move{map.map().generation(), corrections, corrections.largestMove_m()};
+  map.replace(refined, name);
+  const Pose T_W_last = corrections.corrected(last_pose_);
+  move.jump_m = (T_W_last.translation() - last_pose_.T_W_D.translation()).norm();
+  move_ = std::make_shared<const MapMove>(std::move(move));
+  last_pose_.T_W_D = T_W_last;
+  map.noteFrame(last_pose_.stamp_s, T_W_last.translation());
+  renderLast(map);
+}
+
+void FrameMapper::renderLast(FusedMap& map) {
   Mapper& mapper = map.mapper(camera_);
   StageTimers timers;
   mapper.render(last_pose_.T_W_D, timers);
@@ -90,6 +107,7 @@ void FrameMapper::reset(FusedMap& map, const MapReset& reset) {
 void FrameMapper::empty(FusedMap& map) {
   map.reset();
   view_.reset();
+  move_.reset();
 }
 
 }  // namespace depth_fusion

@@ -38,6 +38,13 @@ class FrameMapper {
   // Takes in a stored map by a call: frames from before are refused from now on. Throws Error as FusedMap
   // does.
   void load(FusedMap& map, ReadMap& stored, const std::string& name, const MapReset& reset);
+  // Takes in the map as it was made anew, by which its poses move. Throws Error as FusedMap does.
+  void replace(FusedMap& map, ReadMap& refined, const std::string& name, const Corrections& corrections);
+  // The last such move of the map that there is; null if it came otherwise.
+  const std::shared_ptr<const MapMove>& move() const { return move_; }
+  const PipelineParameters& parameters() const { return parameters_; }
+  // Of the last fused frame.
+  const StampedPose& lastPose() const { return last_pose_; }
   // What is stored of the map beside its contents.
   MapDescription describe(FusedMap& map) const;
   // Empties the map by a call: frames from before are refused from now on.
@@ -51,6 +58,8 @@ class FrameMapper {
  private:
   void prepare(const CameraIntrinsics& camera);
   void empty(FusedMap& map);
+  // Has view() be that of the last pose.
+  void renderLast(FusedMap& map);
   MappingOutcome fuse(const TrackedFrame& frame, FusedMap& map, StageTimers& timers);
 
   std::shared_ptr<ComputeContext> compute_;
@@ -60,7 +69,8 @@ class FrameMapper {
   MotionModel motion_;                               // of frames that come without preprocessed depth
   std::unique_ptr<DepthPreprocessor> preprocessor_;  // the same
   std::shared_ptr<const ModelView> view_;
-  StampedPose last_pose_;  // of the last fused frame
+  StampedPose last_pose_;
+  std::shared_ptr<const MapMove> move_;
 };
 
 }  // namespace depth_fusion

@@ -12,6 +12,7 @@
 #include "depth_fusion/frames/rgbd_frame.h"
 #include "depth_fusion/frames/textured_frame.h"
 #include "depth_fusion/frames/tracking_result.h"
+#include "depth_fusion/loops/corrections.h"
 #include "depth_fusion/texture_odometry/texture_odometry_parameters.h"
 #include "ros/in_process/process_message.h"
 
@@ -74,6 +75,14 @@ struct MapReset {
 
 enum class MapMode : uint8_t { kMapping, kLocalisation, kPaused };
 
+// Closed loops have moved the map: it is another one, of another generation.
+struct MapMove {
+  uint32_t from_generation = 0;
+  Corrections corrections;  // of the poses in the map before
+  double moved_m = 0.0;     // of the keyframe that is moved most
+  double jump_m = 0.0;      // of the last pose
+};
+
 // What travels on the topic tsdf_fusion/model_view: the answer to each tracked frame, with its stamp, and
 // news of a reset or of another mode.
 struct MapView {
@@ -83,7 +92,8 @@ struct MapView {
   std::string reason;           // why not
   uint32_t map_generation = 0;  // another one after every reset
   MapMode mode = MapMode::kMapping;
-  MapReset reset;  // the last one
+  MapReset reset;                       // the last one
+  std::shared_ptr<const MapMove> move;  // by which this map came from the one before; null if it did not
   std::weak_ptr<SharedMap> map;
 };
 // The reason of frames that were taken before the map was emptied.

@@ -90,6 +90,7 @@ LiveResult LiveTracker::fail(const std::string& error) {
 }
 
 void LiveTracker::send(const SensorFramePtr& frame, const TrackingResult& tracking) {
+  sent_ = frame;
   fusion_.send(frame, session_->depth(), tracking);
 }
 
@@ -126,6 +127,7 @@ void LiveTracker::apply(const FusionNews& news) {
   switch (news.kind) {
     case FusionNews::kAccepted:
       map_ = news.view;
+      seekLoops();
       session_->conclude(true);
       return shareKeyframes();
     case FusionNews::kUnanswered:
@@ -161,10 +163,23 @@ std::string LiveTracker::refusal(const SensorFrame& frame) const {
   return fusion_.isBeforeReset(frame) ? kBeforeReset : "";
 }
 
+void LiveTracker::seekLoops() {
+  const std::shared_ptr<SharedMap> map = map_->map.lock();
+  if (map == nullptr || map_->mode != MapMode::kMapping || view() == nullptr) return;
+  const LoopsOfMap loops = map->loopsOf(map_->map_generation);
+  if (loops.closing == nullptr) return;
+  loops.closing->add(sent_->rgbd, session_->features(), view()->T_W_D, *view(), loops.world);
+}
+
 void LiveTracker::changeMap(const std::shared_ptr<const MapView>& map) {
+  const bool is_moved = map != nullptr && map->move != nullptr && map_ != nullptr &&
+                        map->move->from_generation == map_->map_generation;
   map_ = map;
   if (session_ != nullptr) session_->reset(viewPose(), keyframesOf(map));  // one that is made later does so
-  robot_.forget_poses();
+  if (is_moved)
+    robot_.correct_poses(map->move->corrections);
+  else
+    robot_.forget_poses();
   const std::lock_guard<std::mutex> lock(expected_mutex_);
   T_map_base_.reset();
 }

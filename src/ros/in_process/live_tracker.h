@@ -31,6 +31,7 @@ class LiveTracker {
   struct Robot {
     std::function<Pose(const std_msgs::Header& camera)> start_pose;  // of the frame that begins a map
     std::function<void()> forget_poses;                              // they are those of a map that is gone
+    std::function<void(const Corrections&)> correct_poses;           // the map has moved
     std::function<Pose(const std::string& camera)> camera_on_base;   // T_base_camera of that frame
   };
 
@@ -80,6 +81,8 @@ class LiveTracker {
   // The pose of the view; the origin without one.
   Pose viewPose() const { return view() == nullptr ? Pose::Identity() : view()->T_W_D; }
   void warnOfNoise();
+  // Has the frame that was just fused seek loops.
+  void seekLoops();
   // Lets whoever saves the map have its keyframes.
   void shareKeyframes();
   Keyframes keyframesOf(const std::shared_ptr<const MapView>& map) const;
@@ -96,6 +99,7 @@ class LiveTracker {
   std::unique_ptr<TrackingSession> session_;
   CameraIntrinsics camera_;
   std::shared_ptr<const TextureOdometryParameters> texture_;  // as last seen
+  SensorFramePtr sent_;                                       // to fusion, the last one
   std::shared_ptr<const MapView> map_;                        // what fusion last showed of it; null: nothing
   std::shared_ptr<const ModelView> rendered_;  // what render() returned last, while a frame is tracked
   uint32_t clock_jumps_ = 0;

@@ -33,12 +33,30 @@ std::shared_ptr<ComputeContext> sharedCompute(const std::string& device) {
 
 void FusedMap::reset() {
   map_.reset(Eigen::Vector3d::Zero());
+  was_loaded_ = false;
+  clearings_.clear();
   mapper_.reset();
 }
 
+void FusedMap::noteFrame(double stamp_s, const Eigen::Vector3d& camera_W) {
+  last_stamp_s_ = stamp_s;
+  camera_W_ = camera_W;
+}
+
+size_t FusedMap::clear(const Clearing& clearing) {
+  clearings_.emplace_back(last_stamp_s_, clearing);
+  return submaps_.clear(clearing.box_W, clearing.isInside);
+}
+
 void FusedMap::load(ReadMap& stored, const std::string& name) {
-  checkFilterRule(stored.loaded().description, parameters_, name);
-  stored.moveTo(submaps_);
+  replace(stored, name);
+  was_loaded_ = true;
+  clearings_.clear();
+}
+
+void FusedMap::replace(ReadMap& refined, const std::string& name) {
+  checkFilterRule(refined.loaded().description, parameters_, name);
+  refined.moveTo(submaps_);
   mapper_.reset();
 }
 
@@ -65,6 +83,17 @@ void SharedMap::keepKeyframes(uint32_t generation, const Keyframes& keyframes) {
   if (generation < keyframes_generation_) return;  // a tracker that has not heard of this map yet
   keyframes_generation_ = generation;
   keyframes_ = keyframes;
+}
+
+LoopsOfMap SharedMap::loopsOf(uint32_t generation) const {
+  const std::lock_guard<std::mutex> lock(loops_mutex_);
+  return generation == loops_generation_ ? loops_ : LoopsOfMap();
+}
+
+void SharedMap::setLoops(uint32_t generation, LoopsOfMap loops) {
+  const std::lock_guard<std::mutex> lock(loops_mutex_);
+  loops_generation_ = generation;
+  loops_ = std::move(loops);
 }
 
 void offerMap(const std::string& name, const std::shared_ptr<SharedMap>& map) {

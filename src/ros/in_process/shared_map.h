@@ -1,10 +1,14 @@
 // What the nodelets of one process share: the compute device and the map.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "depth_fusion/pipeline/loop_closing.h"
 #include "depth_fusion/pipeline/mapper.h"
 #include "depth_fusion/submaps/map_file.h"
 
@@ -13,6 +17,12 @@ namespace depth_fusion {
 // One context a device choice for the whole process; it lives as long as somebody holds it. Throws Error
 // without a device.
 std::shared_ptr<ComputeContext> sharedCompute(const std::string& device);
+
+// A region of a map of which nothing is known any more.
+struct Clearing {
+  Eigen::AlignedBox3d box_W;
+  std::function<bool(const Eigen::Vector3d& p_W)> isInside;
+};
 
 // A map and what fuses into it.
 class FusedMap {
@@ -31,12 +41,21 @@ class FusedMap {
   Mapper& mapper(const CameraIntrinsics& camera);
   // Where the camera was when the last frame was fused; the origin of a map without frames.
   const Eigen::Vector3d& cameraPosition() const { return camera_W_; }
-  void noteCameraPosition(const Eigen::Vector3d& camera_W) { camera_W_ = camera_W; }
+  // A frame of that stamp is fused from there.
+  void noteFrame(double stamp_s, const Eigen::Vector3d& camera_W);
+  // As SubmapCollection has it; is kept in mind, for a map that is made anew.
+  size_t clear(const Clearing& clearing);
+  // What was cleared after the frames of these stamps, in this order.
+  const std::vector<std::pair<double, Clearing>>& clearings() const { return clearings_; }
+  // Whether there is more in it than what was fused since it was emptied.
+  bool wasLoaded() const { return was_loaded_; }
   // Empties the map; a new generation begins.
   void reset();
   // Takes in a stored map in place of what there is. Throws Error, and changes nothing, if it was filtered by
   // another rule.
   void load(ReadMap& stored, const std::string& name);
+  // Takes in this map as it was made anew. Throws Error as load() does.
+  void replace(ReadMap& refined, const std::string& name);
   // The parameters are for the frames to come; the map's stay. Throws Error for what cannot change.
   void setParameters(const PipelineParameters& parameters);
 
@@ -47,7 +66,16 @@ class FusedMap {
   SubmapCollection submaps_;
   CameraIntrinsics camera_;
   Eigen::Vector3d camera_W_ = Eigen::Vector3d::Zero();
+  bool was_loaded_ = false;
+  double last_stamp_s_ = 0.0;  // of the frame that was fused last
+  std::vector<std::pair<double, Clearing>> clearings_;
   std::unique_ptr<Mapper> mapper_;
+};
+
+// Where loops of a map are sought, and what its frames are told as LoopClosing::add's `world`.
+struct LoopsOfMap {
+  std::shared_ptr<LoopClosing> closing;  // null: nowhere
+  uint32_t world = 0;
 };
 
 // A map that several threads work on, one after the other.
@@ -70,6 +98,10 @@ class SharedMap {
   Keyframes keyframesOf(uint32_t generation) const;
   void keepKeyframes(uint32_t generation, const Keyframes& keyframes);
 
+  // Those of the map of that generation. Both may be called at any time.
+  LoopsOfMap loopsOf(uint32_t generation) const;
+  void setLoops(uint32_t generation, LoopsOfMap loops);
+
   const std::shared_ptr<ComputeContext> compute;
   const std::string frame_id;  // of the map's coordinates
 
@@ -79,6 +111,9 @@ class SharedMap {
   mutable std::mutex keyframes_mutex_;  // of the two that follow
   uint32_t keyframes_generation_ = 0;
   Keyframes keyframes_;
+  mutable std::mutex loops_mutex_;  // of the two that follow
+  uint32_t loops_generation_ = 0;
+  LoopsOfMap loops_;
 };
 
 // Makes the map known by the resolved name of the nodelet that has it.

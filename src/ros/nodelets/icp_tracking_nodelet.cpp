@@ -64,6 +64,7 @@ void IcpTrackingNodelet::start() {
       LiveTracker::Robot{
           [this](const std_msgs::Header& camera) { return pose_publisher_->startPose(camera); },
           [this] { pose_publisher_->reset(); },
+          [this](const Corrections& corrections) { pose_publisher_->correct(corrections); },
           [this](const std::string& camera) { return pose_publisher_->cameraOnBase(camera); }});
   worker_ = std::make_unique<Worker<WaitingFrame>>(
       parameters_.queue_size, [this](const WaitingFrame& frame) { process(frame); },

@@ -130,6 +130,7 @@ void TextureOdometryNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrappe
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, "no motion: " + no_motion_);
   }
   status.add("queue", worker_->waiting());
+  status.add("trackers", frame_publisher_.getNumSubscribers());
 }
 
 }  // namespace depth_fusion

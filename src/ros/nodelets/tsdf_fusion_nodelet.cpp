@@ -11,6 +11,7 @@
 #include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
 #include "ros/output/map_commands.h"
 #include "ros/output/map_keeper.h"
+#include "ros/output/map_refiner.h"
 #include "ros/output/map_reporter.h"
 
 namespace depth_fusion {
@@ -40,6 +41,7 @@ class TsdfFusionNodelet : public StageNodelet {
   std::unique_ptr<PosedFrameSubscriber> posed_subscriber_;  // of frames with poses from elsewhere
   std::unique_ptr<MapCommands> commands_;
   std::unique_ptr<MapKeeper> keeper_;
+  std::unique_ptr<MapRefiner> refiner_;  // works in the keeper's thread
 };
 
 TsdfFusionNodelet::~TsdfFusionNodelet() {
@@ -47,6 +49,7 @@ TsdfFusionNodelet::~TsdfFusionNodelet() {
   frame_subscriber_.shutdown();
   if (worker_ != nullptr) worker_->stop();
   posed_subscriber_.reset();
+  refiner_.reset();
   keeper_.reset();  // saves the map, to which nothing comes any more
 }
 
@@ -80,6 +83,7 @@ void TsdfFusionNodelet::advertise() {
   };
   keeper_ = std::make_unique<MapKeeper>(map_, *mapper_, parameters_.keeper, handle, announce);
   keeper_->loadAtStart();
+  refiner_ = std::make_unique<MapRefiner>(map_, *mapper_, parameters_.refiner, *keeper_, handle, announce);
   subscribe();
   commands_ = std::make_unique<MapCommands>(map_, *mapper_, handle, callbacks_, announce);
 }
@@ -140,6 +144,7 @@ void TsdfFusionNodelet::process(const TrackedFrame& frame) {
 void TsdfFusionNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   reporter_->diagnose(posed_subscriber_ ? posed_subscriber_->problem() : "", status);
   keeper_->diagnose(status);
+  refiner_->diagnose(status);
   status.add("queue", worker_->waiting());
   status.add("device", map_->compute->device().name);
 }

@@ -20,7 +20,8 @@ ParameterTable TsdfFusionNodeletParameters::table() {
                          "external: frames that wait for their pose at most")),
       choice("on_clock_jump", &on_clock_jump, {"reset", "keep"},
              "external: what a clock that goes back does to the map")};
-  return joined({pipeline.tsdf_fusion.table(), rgbd.table(), own, keeper.table(), picture.table()});
+  return joined(
+      {pipeline.tsdf_fusion.table(), rgbd.table(), own, keeper.table(), refiner.table(), picture.table()});
 }
 
 std::vector<std::pair<std::string, ParameterTable>> TsdfFusionNodeletParameters::stages() {
@@ -30,7 +31,8 @@ std::vector<std::pair<std::string, ParameterTable>> TsdfFusionNodeletParameters:
           {"depth_sensor", pipeline.depth_sensor.table()},
           {"preprocessing", pipeline.preprocessing.table()},
           {"model_view", pipeline.model_view.table()},
-          {"color_fusion", pipeline.color_fusion.table()}};
+          {"color_fusion", pipeline.color_fusion.table()},
+          {"loops", atStartOnly(refiner.loops.table())}};
 }
 
 }  // namespace depth_fusion

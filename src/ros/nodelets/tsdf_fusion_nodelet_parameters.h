@@ -8,6 +8,7 @@
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "ros/input/rgbd_parameters.h"
 #include "ros/output/map_keeper_parameters.h"
+#include "ros/output/map_refiner_parameters.h"
 #include "ros/output/model_picture_parameters.h"
 
 namespace depth_fusion {
@@ -24,6 +25,7 @@ struct TsdfFusionNodeletParameters {
   std::string on_clock_jump = "reset";
   ModelPictureParameters picture;
   MapKeeperParameters keeper;
+  MapRefinerParameters refiner;
 
   // The nodelet's own rows.
   ParameterTable table();

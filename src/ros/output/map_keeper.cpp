@@ -83,6 +83,10 @@ void MapKeeper::pause() {
   });
 }
 
+void MapKeeper::follow(uint32_t old_generation, uint32_t generation) {
+  if (kept_generation_ == old_generation) kept_generation_ = generation;
+}
+
 std::string MapKeeper::placeOf(const std::string& path) const {
   const std::string& place = path.empty() ? parameters_.map_file : path;
   check(!place.empty(), "path is empty, and ~map_file says no place either; give the name of a file");

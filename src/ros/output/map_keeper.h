@@ -33,11 +33,17 @@ class MapKeeper {
 
   // Loads the map of map_file, if there is one. One that cannot be loaded is said to be so, and left alone.
   void loadAtStart();
+  // The map of that generation goes on as another one, which belongs in map_file as it did. From the thread
+  // of queue().
+  void follow(uint32_t old_generation, uint32_t generation);
+  // Of a thread of this object's own, in which it works.
+  ros::CallbackQueue& queue() { return queue_; }
+  // Where that path of a service means; empty: map_file. Throws Error for none.
+  std::string placeOf(const std::string& path) const;
   // From any thread: adds what is to be said, and warns of what is not saved.
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
-  std::string placeOf(const std::string& path) const;
   void loadKept();
   // Frames are neither tracked nor fused.
   void pause();

@@ -27,7 +27,7 @@ void MapReporter::answer(const std_msgs::Header& header, const MappingOutcome& o
   view_publisher_.publish(makeMessage<MapView>(
       header, std::make_shared<MapView>(MapView{mapper.view(), outcome.accepted, outcome.reason,
                                                 map.map().generation(), admission.mode(),
-                                                admission.lastReset(), map_})));
+                                                admission.lastReset(), mapper.move(), map_})));
 }
 
 void MapReporter::publishStatus(const std_msgs::Header& header, const MappingOutcome& outcome,
@@ -42,6 +42,10 @@ void MapReporter::publishStatus(const std_msgs::Header& header, const MappingOut
   const SubmapCollection& submaps = map.submaps();
   setUsage(*status, submaps.submaps(), submaps.usage());
   status->blocks_left_out = outcome.blocks_left_out;
+  if (const auto& move = mapper.move()) {
+    status->moved_m = move->moved_m;
+    status->jump_m = move->jump_m;
+  }
   status->frames = frames;
   status_publisher_.publish(status);
   if (const auto shared = map_.lock()) submap_markers_.publish(shared->frame_id, submaps);

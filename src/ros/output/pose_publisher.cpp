@@ -49,6 +49,13 @@ void PosePublisher::reset() {
   publishPath();
 }
 
+void PosePublisher::correct(const Corrections& corrections) {
+  const std::lock_guard<std::mutex> lock(path_mutex_);
+  for (geometry_msgs::PoseStamped& pose : path_.poses)
+    pose.pose = toMessage(corrections.corrected({pose.header.stamp.toSec(), fromMessage(pose.pose)}));
+  if (!path_.poses.empty()) publishPath();
+}
+
 void PosePublisher::addToPath(const std_msgs::Header& header, const Pose& T_map_camera) {
   const Pose step = T_map_last_.inverse() * T_map_camera;
   if (!path_.poses.empty() && step.translation().norm() < kPathStep_m && rotationAngle(step) < kPathStep_rad)

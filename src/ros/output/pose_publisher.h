@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 
+#include "depth_fusion/loops/corrections.h"
 #include "ros/output/pose_parameters.h"
 #include "ros/output/transform_sender.h"
 #include "ros/output/viewer_aids.h"
@@ -27,6 +28,8 @@ class PosePublisher {
   void showSign(const std::string& text) { viewer_aids_.showSign(text); }
   // Forgets the path and the last pose, which belong to another map.
   void reset();
+  // Closed loops have moved the poses: the path goes out again as they have it.
+  void correct(const Corrections& corrections);
   // What is wrong with the robot's odometry or tree on tf; empty if nothing is. From any thread.
   std::string problem() const { return transforms_.problem(); }
 

@@ -25,12 +25,13 @@ ClearRegion::Response RegionClearing::clear(const ClearRegion::Request& request)
       is_sphere ? Eigen::Vector3d::Constant(request.radius) : Eigen::Vector3d(0.5 * size);
   const Eigen::Vector3d reach = T_W_R.linear().cwiseAbs() * half;
   const Eigen::AlignedBox3d box_W(T_W_R.translation() - reach, T_W_R.translation() + reach);
-  const auto isInside = [&](const Eigen::Vector3d& p_W) {
+  const double radius_m = request.radius;
+  const auto isInside = [=](const Eigen::Vector3d& p_W) {
     const Eigen::Vector3d p_R = T_R_W * p_W;
-    return is_sphere ? p_R.norm() <= request.radius : (p_R.cwiseAbs().array() <= half.array()).all();
+    return is_sphere ? p_R.norm() <= radius_m : (p_R.cwiseAbs().array() <= half.array()).all();
   };
   ClearRegion::Response response;
-  response.blocks = map_->locked([&](FusedMap& map) { return map.submaps().clear(box_W, isInside); });
+  response.blocks = map_->locked([&](FusedMap& map) { return map.clear({box_W, isInside}); });
   response.success = true;
   response.message = "cleared in " + std::to_string(response.blocks) + " blocks";
   return response;

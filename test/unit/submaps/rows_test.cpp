@@ -165,20 +165,22 @@ TEST(Rows, WhatLoopsAreClosedByComesBack) {
   Keyframe before = someKeyframe();
   before.view =
       KeyframeView(cv::Mat(24, 32, CV_32FC1, cv::Scalar(1.5)), {32, 24, 26.0, 26.0, 15.5, 11.5}, 32);
-  before.submap = 3;
+  before.color = {"a picture", {64, 48, 52.0, 52.0, 31.5, 23.5}, Pose(Eigen::Translation3d(0.0, 0.025, 0.0))};
   before.stamp_s = 12.5;
   before.way_m = 77.25;
   const Keyframe after = parseKeyframe(keyframeRow(before), "row");
   EXPECT_EQ(after.view.packed(), before.view.packed());
   EXPECT_TRUE(sameCamera(after.view.camera(), before.view.camera()));
-  EXPECT_EQ(after.submap, 3u);
+  EXPECT_EQ(after.color.jpeg, "a picture");
+  EXPECT_TRUE(sameCamera(after.color.camera, before.color.camera));
+  EXPECT_TRUE(after.color.T_C_D.isApprox(before.color.T_C_D));
   EXPECT_EQ(after.stamp_s, 12.5);
   EXPECT_EQ(after.way_m, 77.25);
 }
 
 TEST(Rows, AKeyframeOfTheFormatBeforeIsRead) {
   const std::string contents = unpacked(keyframeRow(someKeyframe()), "row");
-  constexpr size_t kLoopPartBytes = 4 + 8 + 8 + 4;  // submap, stamp, way, an empty view
+  constexpr size_t kLoopPartBytes = 8 + 8 + 4 + 4;  // stamp, way, an empty view, no colour
   const Keyframe after = parseKeyframe(packed(contents.substr(0, contents.size() - kLoopPartBytes)), "row");
   EXPECT_EQ(after.features.features.size(), 10u);
   EXPECT_TRUE(after.view.isEmpty());
