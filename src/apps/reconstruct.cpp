@@ -82,7 +82,7 @@ void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
 }
 
 ParameterTable allParameters(RunOptions& options) {
-  return joined({options.parameters.table(), withPrefix("loops", options.loops.table())});
+  return options.parameters.table();
 }
 
 void printParameters(const ParameterTable& parameters) {

@@ -20,6 +20,17 @@ constexpr int kJpegQuality = 90;
 
 std::string rowKey(uint32_t number) { return "keyframe " + std::to_string(number); }
 
+// Of a frame that loops are not sought by.
+Keyframe viewOnly(const CameraIntrinsics& camera, const Pose& T_W_D, double stamp_s) {
+  Keyframe keyframe;
+  keyframe.features.camera = camera;
+  keyframe.features.reason = "only its view is kept";
+  keyframe.thumbnail = cv::Mat::zeros(kThumbnailHeight_px, kThumbnailWidth_px, CV_32FC1);
+  keyframe.T_W_D = T_W_D;
+  keyframe.stamp_s = stamp_s;
+  return keyframe;
+}
+
 std::string jpegOf(const cv::Mat& color) {
   std::vector<uchar> bytes;
   cv::imencode(".jpg", color, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
@@ -28,8 +39,8 @@ std::string jpegOf(const cv::Mat& color) {
 
 }  // namespace
 
-LoopClosing::LoopClosing(const LoopParameters& parameters, WhenBusy when_busy, bool keeps_color)
-    : parameters_(parameters), when_busy_(when_busy), keeps_color_(keeps_color), thread_([this] { run(); }) {}
+LoopClosing::LoopClosing(const LoopParameters& parameters, LoopsFor use, bool keeps_color)
+    : parameters_(parameters), use_(use), keeps_color_(keeps_color), thread_([this] { run(); }) {}
 
 LoopClosing::~LoopClosing() {
   {
@@ -46,13 +57,16 @@ void LoopClosing::add(const RgbdFrame& frame, const FrameFeatures& features, con
   if (!isOf(world)) return;
   if (last_W_) way_m_ += (T_W_D.translation() - last_W_->translation()).norm();
   last_W_ = T_W_D;
-  if (!features.reason.empty() || !problem_.empty() || !isKeyframe(T_W_D)) return;
+  const Role role = roleOf(features, T_W_D);
+  if (!problem_.empty() || role == Role::kNone) return;
   const auto has_room = [this] { return waiting_.size() < kMostWaiting; };
-  if (when_busy_ == WhenBusy::kLeaveOut && !has_room()) return;
+  if (use_ == LoopsFor::kLiveMap && !has_room()) return;
   const double way_m = way_m_;
   lock.unlock();
   Waiting added;
-  added.keyframe = std::make_shared<Keyframe>(keyframeOf(features, T_W_D, frame.stamp_s));
+  added.keyframe =
+      std::make_shared<Keyframe>(role == Role::kKeyframe ? keyframeOf(features, T_W_D, frame.stamp_s)
+                                                         : viewOnly(view.camera, T_W_D, frame.stamp_s));
   added.keyframe->view =
       KeyframeView(readImage(view.depth, view.camera), view.camera, parameters_.view_width_px);
   added.keyframe->way_m = way_m;
@@ -63,24 +77,34 @@ void LoopClosing::add(const RgbdFrame& frame, const FrameFeatures& features, con
   lock.lock();
   is_idle_.wait(lock, has_room);
   if (!isOf(world)) return;
-  if (last_keyframe_W_) added.motion = KeyframeMotion{last_keyframe_W_->inverse() * T_W_D};
+  if (last_view_W_) added.motion = KeyframeMotion{last_view_W_->inverse() * T_W_D};
   added.T_W_then = T_W_D;
-  last_keyframe_W_ = T_W_D;
+  last_view_W_ = T_W_D;
+  if (role == Role::kKeyframe) last_keyframe_W_ = T_W_D;
   waiting_.push_back(std::move(added));
   has_work_.notify_one();
 }
 
-bool LoopClosing::isKeyframe(const Pose& T_W_D) const {
-  if (!last_keyframe_W_) return true;
-  const Pose motion = last_keyframe_W_->inverse() * T_W_D;
-  return motion.translation().norm() >= static_cast<double>(parameters_.keyframe_distance_m) ||
-         rotationAngle(motion) >= static_cast<double>(parameters_.keyframe_angle_rad);
+LoopClosing::Role LoopClosing::roleOf(const FrameFeatures& features, const Pose& T_W_D) const {
+  const auto isApart = [&](const std::optional<Pose>& last_W, float distance_m, float angle_rad) {
+    if (!last_W) return true;
+    const Pose motion = last_W->inverse() * T_W_D;
+    return motion.translation().norm() >= static_cast<double>(distance_m) ||
+           rotationAngle(motion) >= static_cast<double>(angle_rad);
+  };
+  if (features.reason.empty() &&
+      isApart(last_keyframe_W_, parameters_.keyframe_distance_m, parameters_.keyframe_angle_rad))
+    return Role::kKeyframe;
+  const bool is_view = use_ == LoopsFor::kLiveMap &&
+                       isApart(last_view_W_, parameters_.view_distance_m, parameters_.view_angle_rad);
+  return is_view ? Role::kView : Role::kNone;
 }
 
 void LoopClosing::beginAnew() {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_W_.reset();
   last_keyframe_W_.reset();
+  last_view_W_.reset();
 }
 
 uint32_t LoopClosing::adopt(const Corrections& applied) {
@@ -91,8 +115,9 @@ uint32_t LoopClosing::adopt(const Corrections& applied) {
   for (size_t i = 0; i < known_.size(); ++i)
     known_[i].T_W_then = i < moved.size() ? moved[i].T_W_now : T_new_old * known_[i].T_W_then;
   for (Waiting& waiting : waiting_) waiting.T_W_then = T_new_old * waiting.T_W_then;
-  if (last_W_) last_W_ = T_new_old * *last_W_;
-  if (last_keyframe_W_) last_keyframe_W_ = T_new_old * *last_keyframe_W_;
+  for (std::optional<Pose>* last_W : {&last_W_, &last_keyframe_W_, &last_view_W_}) {
+    if (*last_W) *last_W = T_new_old * **last_W;
+  }
   constexpr double kNoMove_m = 1e-6;
   is_moved_ = Corrections(known_).largestMove_m() > kNoMove_m;  // by what came while these were applied
   return ++world_;

@@ -17,6 +17,14 @@ PreprocessingParameters ofViews(PreprocessingParameters parameters) {
   return parameters;
 }
 
+// A view is the mean of many measurements.
+DepthSensorParameters ofViews(DepthSensorParameters sensor) {
+  constexpr float kLess = 1.0f / 3.0f;
+  sensor.sigma_base_m *= kLess;
+  sensor.sigma_growth_per_m *= kLess;
+  return sensor;
+}
+
 RgbdFrame frameOf(const Keyframe& keyframe) {
   RgbdFrame frame;
   frame.stamp_s = keyframe.stamp_s;
@@ -44,7 +52,7 @@ void MapRefinement::fuse(const Keyframe& keyframe, const Pose& T_W_D) {
   if (mapper_ == nullptr || !sameCamera(frame.intrinsics, camera_)) {
     camera_ = frame.intrinsics;
     preprocessor_ = std::make_unique<DepthPreprocessor>(compute_, ofViews(parameters_.preprocessing), camera_,
-                                                        parameters_.depth_sensor);
+                                                        ofViews(parameters_.depth_sensor));
     mapper_ = std::make_unique<Mapper>(compute_, map_, submaps_, parameters_, camera_);
   }
   StageTimers timers;

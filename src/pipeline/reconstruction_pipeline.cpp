@@ -47,8 +47,8 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   return result;
 }
 
-void ReconstructionPipeline::closeLoops(const LoopParameters& parameters) {
-  loops_ = std::make_unique<LoopClosing>(parameters);
+void ReconstructionPipeline::closeLoops() {
+  loops_ = std::make_unique<LoopClosing>(parameters_.loops);
 }
 
 void ReconstructionPipeline::setKeyframes(Keyframes keyframes) {

@@ -10,6 +10,8 @@ struct LoopParameters {
   float keyframe_distance_m = 0.3f;
   float keyframe_angle_rad = 0.3f;
   int view_width_px = 320;
+  float view_distance_m = 0.1f;
+  float view_angle_rad = 0.1f;
   float min_way_m = 3.0f;
   int index_features = 300;
   int max_candidates = 6;

@@ -20,21 +20,22 @@
 
 namespace depth_fusion {
 
-// What add() does while there is too much to compare: wait, so that a recording gives the same every time, or
-// leave the frame out, so that a sensor does not have to.
-enum class WhenBusy { kWait, kLeaveOut };
+// What loops are sought for. A recording is there to be fused again: add() waits while there is too much to
+// compare, so that it gives the same every time. A live map is made anew from views, which are kept also
+// between keyframes: add() leaves frames out while there is too much to do, so that no sensor has to wait.
+enum class LoopsFor { kRecording, kLiveMap };
 
 // Any thread may call. Keyframes lie in a file for this process alone, so that memory holds little more than
 // the graph and the index.
 class LoopClosing {
  public:
   // `keeps_color`: keyframes have their colour image, too.
-  explicit LoopClosing(const LoopParameters& parameters, WhenBusy when_busy = WhenBusy::kWait,
+  explicit LoopClosing(const LoopParameters& parameters, LoopsFor use = LoopsFor::kRecording,
                        bool keeps_color = false);
   ~LoopClosing();
 
   // A frame was fused at T_W_D, from where the map looks like `view`. It becomes a keyframe if it has
-  // features and is far enough from the last one. W is as it was after so many calls of adopt(): frames of
+  // features and is far enough from the last one; of a live map also without, nearer, as a view alone. W is as it was after so many calls of adopt(): frames of
   // another W are left out.
   void add(const RgbdFrame& frame, const FrameFeatures& features, const Pose& T_W_D, const ModelView& view,
            uint32_t world = 0);
@@ -66,7 +67,8 @@ class LoopClosing {
     Pose T_W_then;
   };
 
-  bool isKeyframe(const Pose& T_W_D) const;
+  enum class Role { kNone, kView, kKeyframe };
+  Role roleOf(const FrameFeatures& features, const Pose& T_W_D) const;
   bool isOf(uint32_t world) const { return world == world_; }
   void run();
   void compare(LoopCloser& closer, Waiting& added, LoopReport& report);
@@ -75,7 +77,7 @@ class LoopClosing {
   void note(const LoopCloser& closer, const LoopReport& report);
 
   const LoopParameters parameters_;
-  const WhenBusy when_busy_;
+  const LoopsFor use_;
   const bool keeps_color_;
 
   std::mutex store_mutex_;               // of the one that follows
@@ -85,7 +87,7 @@ class LoopClosing {
   std::condition_variable has_work_, is_idle_;
   uint32_t world_ = 0;
   double way_m_ = 0.0;
-  std::optional<Pose> last_W_, last_keyframe_W_;
+  std::optional<Pose> last_W_, last_keyframe_W_, last_view_W_;  // a keyframe is a view, too
   std::deque<Waiting> waiting_;  // the first one is at work
   std::vector<LoopCandidate> candidates_;
   std::vector<CorrectedKeyframe> known_;

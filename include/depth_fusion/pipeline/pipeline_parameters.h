@@ -4,6 +4,7 @@
 #include "depth_fusion/color_fusion/color_fusion_parameters.h"
 #include "depth_fusion/frames/depth_sensor.h"
 #include "depth_fusion/icp_tracking/icp_tracking_parameters.h"
+#include "depth_fusion/loops/loop_parameters.h"
 #include "depth_fusion/map/map_parameters.h"
 #include "depth_fusion/model_view/model_view_parameters.h"
 #include "depth_fusion/preprocessing/preprocessing_parameters.h"
@@ -25,6 +26,7 @@ struct PipelineParameters {
   TextureOdometryParameters texture_odometry;
   IcpTrackingParameters icp_tracking;
   RelocalisationParameters relocalisation;
+  LoopParameters loops;
   TsdfFusionParameters tsdf_fusion;
   ColorFusionParameters color_fusion;
   ModelViewParameters model_view;

@@ -37,7 +37,7 @@ class ReconstructionPipeline {
 
   // Has loops sought from the next tracked frame on. What they make of the poses is for the caller to use:
   // the map stays as it is.
-  void closeLoops(const LoopParameters& parameters);
+  void closeLoops();
   // Null where loops are not sought.
   LoopClosing* loops() { return loops_.get(); }
 

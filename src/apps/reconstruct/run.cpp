@@ -138,7 +138,7 @@ void Run::buildPipeline(const CameraIntrinsics& camera) {
   if (options_.stored != nullptr) loadMap();
   // In a map that was loaded there is what no recording can fuse again.
   if (!options_.single_pass && options_.trajectory_file.empty() && options_.stored == nullptr)
-    pipeline_->closeLoops(options_.loops);
+    pipeline_->closeLoops();
 }
 
 void Run::loadMap() {
@@ -163,7 +163,7 @@ void Run::applyLoops() {
   const std::string problem = pipeline_->loops()->problem();
   if (!problem.empty()) log_.complain(problem);
   writeText(options_.output + "/loops.csv", loops.table);
-  if (loops.moved_m <= static_cast<double>(options_.loops.least_move_m)) return;
+  if (loops.moved_m <= static_cast<double>(options_.parameters.loops.least_move_m)) return;
   std::printf("%zu loops move poses by up to %.0f mm: the frames are fused once more\n", loops.closed,
               1000.0 * loops.moved_m);
   writeTrajectory(options_.output + "/trajectory_without_loops.txt", log_.trajectory());

@@ -22,7 +22,6 @@ struct RunOptions {
   bool no_mesh = false;
   bool self_calibrate = false;  // from the recording, before it is fused
   bool single_pass = false;     // loops are not sought
-  LoopParameters loops;
   RecordingOptions recording;
   PipelineParameters parameters;
 };

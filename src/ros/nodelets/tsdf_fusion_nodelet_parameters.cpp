@@ -32,7 +32,7 @@ std::vector<std::pair<std::string, ParameterTable>> TsdfFusionNodeletParameters:
           {"preprocessing", pipeline.preprocessing.table()},
           {"model_view", pipeline.model_view.table()},
           {"color_fusion", pipeline.color_fusion.table()},
-          {"loops", atStartOnly(refiner.loops.table())}};
+          {"loops", pipeline.loops.table()}};
 }
 
 }  // namespace depth_fusion

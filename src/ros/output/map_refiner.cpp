@@ -54,6 +54,7 @@ MapRefiner::MapRefiner(std::shared_ptr<SharedMap> map, FrameMapper& mapper,
       parameters_(parameters),
       keeper_(keeper),
       announce_(std::move(announce)),
+      loops_parameters_(mapper.parameters().loops),
       queue_(map_->compute->anotherQueue()),
       publisher_(handle.advertise<LoopStatus>("loops", kQueue)) {
   handle.setCallbackQueue(&keeper_.queue());
@@ -77,7 +78,7 @@ void MapRefiner::look() {
   const double move_m = loops_->corrections().largestMove_m();
   const bool rests = std::abs(move_m - std::exchange(seen_move_m_, move_m)) < kStill_m;
   const bool failed = failed_move_m_ && std::abs(move_m - *failed_move_m_) < kStill_m;
-  if (!rests || failed || move_m <= static_cast<double>(parameters_.loops.least_move_m)) return;
+  if (!rests || failed || move_m <= static_cast<double>(loops_parameters_.least_move_m)) return;
   try {
     replace();
     failed_move_m_.reset();
@@ -96,7 +97,7 @@ void MapRefiner::follow() {
     loops_.reset();
     // Of what was loaded there are no keyframes to make it anew from.
     if (parameters_.close_loops && !mapper_.admission().isExternal() && !fused.wasLoaded())
-      loops_ = std::make_shared<LoopClosing>(parameters_.loops, WhenBusy::kLeaveOut,
+      loops_ = std::make_shared<LoopClosing>(loops_parameters_, LoopsFor::kLiveMap,
                                              fused.map().parameters().color);
     map_->setLoops(generation, {loops_, 0});
     seen_move_m_ = 0.0;

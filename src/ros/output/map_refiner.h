@@ -53,6 +53,7 @@ class MapRefiner {
   const MapRefinerParameters parameters_;
   MapKeeper& keeper_;
   const AnnounceMap announce_;
+  const LoopParameters loops_parameters_;
   const std::unique_ptr<ComputeContext> queue_;
   uint32_t generation_ = 0;
   std::shared_ptr<LoopClosing> loops_;   // null where they are not sought

@@ -10,6 +10,7 @@
 #include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
 #include "ros/output/live_surface_parameters.h"
 #include "ros/output/map_keeper_parameters.h"
+#include "ros/output/map_refiner_parameters.h"
 #include "ros/output/model_picture_parameters.h"
 #include "ros/output/pose_parameters.h"
 #include "support/parameter_rows.h"
@@ -28,6 +29,7 @@ TEST(ParameterRows, EveryMemberOfTheOutputsHasOne) {
   expectRows<LiveSurfaceParameters>();
   expectRows<ModelPictureParameters>();
   expectRows<MapKeeperParameters>();
+  expectRows<MapRefinerParameters>();
 }
 
 TEST(ParameterRows, EveryMemberOfTheInputsHasOne) {
@@ -45,8 +47,9 @@ TEST(ParameterRows, EveryMemberOfTheNodeletsHasOne) {
       fieldCount<IcpTrackingNodeletParameters>() - 3 + fieldCount<IcpTrackingParameters>() + rgbdRows() +
       fieldCount<PoseParameters>() + fieldCount<LiveTrackerParameters>() - 1);
   expectRows<TsdfFusionNodeletParameters>(
-      fieldCount<TsdfFusionNodeletParameters>() - 4 + fieldCount<TsdfFusionParameters>() + rgbdRows() +
-      fieldCount<ModelPictureParameters>() + fieldCount<MapKeeperParameters>());
+      fieldCount<TsdfFusionNodeletParameters>() - 5 + fieldCount<TsdfFusionParameters>() + rgbdRows() +
+      fieldCount<ModelPictureParameters>() + fieldCount<MapKeeperParameters>() +
+      fieldCount<MapRefinerParameters>());
   expectRows<SurfaceMeshNodeletParameters>(fieldCount<SurfaceMeshNodeletParameters>() - 2 +
                                            fieldCount<SurfaceMeshParameters>() +
                                            fieldCount<LiveSurfaceParameters>());
