@@ -164,6 +164,11 @@ void Run::applyLoops() {
   if (!problem.empty()) log_.complain(problem);
   writeText(options_.output + "/loops.csv", loops.table);
   if (loops.moved_m <= static_cast<double>(options_.parameters.loops.least_move_m)) return;
+  try {
+    openRecording();
+  } catch (const std::exception& error) {
+    return log_.complain(std::string(error.what()) + "; the map is as it was tracked, without loops");
+  }
   std::printf("%zu loops move poses by up to %.0f mm: the frames are fused once more\n", loops.closed,
               1000.0 * loops.moved_m);
   writeTrajectory(options_.output + "/trajectory_without_loops.txt", log_.trajectory());
@@ -171,9 +176,12 @@ void Run::applyLoops() {
   const StageTimers timers = pipeline_->timers();
   const Keyframes keyframes = movedTo(log_.trajectory(), pipeline_->keyframes());
   pipeline_.reset();  // its memory is needed
-  openRecording();
   pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, camera_);
-  fuseAgain(*recording_, *pipeline_, log_, interrupted);
+  try {
+    fuseAgain(*recording_, *pipeline_, log_, interrupted);
+  } catch (const std::exception& error) {
+    log_.complain(std::string(error.what()) + "; the map has the frames before, which were fused once more");
+  }
   pipeline_->timers() = timers;
   pipeline_->setKeyframes(keyframes);
 }
