@@ -7,16 +7,6 @@
 namespace depth_fusion {
 namespace {
 
-// Of views, which are smooth, of one moment, and free of the sensor's systematic errors.
-PreprocessingParameters ofViews(PreprocessingParameters parameters) {
-  constexpr float kHardlyAny_px = 0.1f;
-  parameters.bilateral_sigma_px = kHardlyAny_px;
-  parameters.depth_offsets_per_m.clear();
-  parameters.readout_s = 0.0f;
-  parameters.stamp_delay_s = 0.0f;
-  return parameters;
-}
-
 // A view is the mean of many measurements.
 DepthSensorParameters ofViews(DepthSensorParameters sensor) {
   constexpr float kLess = 1.0f / 3.0f;
@@ -24,6 +14,8 @@ DepthSensorParameters ofViews(DepthSensorParameters sensor) {
   sensor.sigma_growth_per_m *= kLess;
   return sensor;
 }
+
+}  // namespace
 
 RgbdFrame frameOf(const Keyframe& keyframe) {
   RgbdFrame frame;
@@ -38,7 +30,14 @@ RgbdFrame frameOf(const Keyframe& keyframe) {
   return frame;
 }
 
-}  // namespace
+PreprocessingParameters ofViews(PreprocessingParameters parameters) {
+  constexpr float kHardlyAny_px = 0.1f;
+  parameters.bilateral_sigma_px = kHardlyAny_px;
+  parameters.depth_offsets_per_m.clear();
+  parameters.readout_s = 0.0f;
+  parameters.stamp_delay_s = 0.0f;
+  return parameters;
+}
 
 MapRefinement::MapRefinement(ComputeContext& compute, const PipelineParameters& parameters)
     : compute_(compute),
@@ -59,11 +58,12 @@ void MapRefinement::fuse(const Keyframe& keyframe, const Pose& T_W_D) {
   mapper_->fuse(frame, preprocessor_->process(frame), T_W_D, true, timers);
 }
 
-SaveReport MapRefinement::save(MapSaver& saver, const StampedPose& last_pose, const Keyframes& keyframes) {
+SaveReport MapRefinement::save(MapSaver& saver, const CameraIntrinsics& camera, const StampedPose& last_pose,
+                               const Keyframes& keyframes) {
   PipelineParameters parameters = parameters_;
   parameters.map = map_.parameters();
   saver.prepare();
-  saver.capture(submaps_, descriptionOf(parameters, camera_, last_pose), keyframes);
+  saver.capture(submaps_, descriptionOf(parameters, camera, last_pose), keyframes);
   return saver.write();
 }
 

@@ -95,7 +95,8 @@ void BlockStore::clear() {
     forgetInDatabase(key, entry);
   }
   entries_.clear();
-  for (auto* keys : {&to_pack_, &to_unpack_, &by_age_, &ahead_}) keys->clear();
+  for (auto* keys : {&to_pack_, &to_unpack_, &by_age_}) keys->clear();
+  ahead_.clear();
   ahead_bytes_ = 0;
   has_work_.notify_one();
   has_room_.notify_all();

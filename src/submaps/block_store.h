@@ -61,6 +61,10 @@ class BlockStore {
     size_t database_bytes = 0;  // 0: it is not there
   };
   using Entries = std::map<GroupKey, Entry>;
+  struct Ahead {
+    GroupKey key;
+    size_t bytes;
+  };
 
   // So much waits to be compressed, or to be taken, at most.
   static constexpr size_t kQueueBytes = size_t{64} << 20;
@@ -77,7 +81,7 @@ class BlockStore {
   // The next groups to be written, the oldest first.
   KeyedRows oldestRows();
   void write(const KeyedRows& rows, const std::vector<GroupKey>& gone);
-  // Forgets what was unpacked ahead first while there is too much of it.
+  // Forgets what was unpacked ahead first while there is too much of it, and what was taken by now.
   void boundAhead();
 
   // The group's rows, from wherever they are; the lock is let go of meanwhile.
@@ -106,7 +110,7 @@ class BlockStore {
   Entries entries_;
   std::deque<GroupKey> to_pack_, to_unpack_;
   std::deque<GroupKey> by_age_;  // with rows, the oldest first
-  std::deque<GroupKey> ahead_;   // unpacked before they are taken
+  std::deque<Ahead> ahead_;      // unpacked before they are taken
   std::vector<GroupKey> gone_;   // with rows in the database that are not wanted any more
   size_t ahead_bytes_ = 0;
   Clock::time_point retry_at_;  // after a failure

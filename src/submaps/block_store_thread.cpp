@@ -74,8 +74,8 @@ void BlockStore::unpackNext(Lock& lock) {
     lock.lock();
     const auto still = entries_.find(key);
     if (still == entries_.end() || still->second.blocks != nullptr) return;
-    ahead_.push_back(key);
-    ahead_bytes_ += bytesOf(blocks);
+    ahead_.push_back({key, bytesOf(blocks)});
+    ahead_bytes_ += ahead_.back().bytes;
     hold(still->second, std::move(blocks), still->second.rows);
     boundAhead();
   } catch (const std::exception&) {
@@ -85,17 +85,13 @@ void BlockStore::unpackNext(Lock& lock) {
 }
 
 void BlockStore::boundAhead() {
-  while (ahead_bytes_ > kQueueBytes && !ahead_.empty()) {
-    const auto found = entries_.find(ahead_.front());
-    ahead_.pop_front();
-    if (found == entries_.end()) continue;
-    Entry& entry = found->second;
-    if (entry.rows != nullptr || entry.database_bytes > 0) hold(entry, nullptr, entry.rows);
-  }
-  ahead_bytes_ = 0;
-  for (const GroupKey& key : ahead_) {
-    const auto found = entries_.find(key);
-    if (found != entries_.end()) ahead_bytes_ += bytesOf(found->second.blocks);
+  for (; !ahead_.empty(); ahead_.pop_front()) {
+    const auto found = entries_.find(ahead_.front().key);
+    const bool is_there = found != entries_.end() && found->second.blocks != nullptr &&
+                          (found->second.rows != nullptr || found->second.database_bytes > 0);
+    if (is_there && ahead_bytes_ <= kQueueBytes) return;
+    if (is_there) hold(found->second, nullptr, found->second.rows);
+    ahead_bytes_ -= ahead_.front().bytes;
   }
 }
 

@@ -11,6 +11,12 @@
 
 namespace depth_fusion {
 
+// What a keyframe shows, as a frame: its view, and its colour if it has one.
+RgbdFrame frameOf(const Keyframe& keyframe);
+// How frames are preprocessed that are views: they are smooth, of one moment, and free of the sensor's
+// systematic errors.
+PreprocessingParameters ofViews(PreprocessingParameters parameters);
+
 class MapRefinement {
  public:
   // The parameters are those of the new map; its voxels may be smaller than those that the keyframes saw.
@@ -21,8 +27,9 @@ class MapRefinement {
   void fuse(const Keyframe& keyframe, const Pose& T_W_D);
 
   SubmapCollection& submaps() { return submaps_; }
-  // Saves the map. Throws Error if it cannot be written.
-  SaveReport save(MapSaver& saver, const StampedPose& last_pose, const Keyframes& keyframes);
+  // Saves the map, as one of a sensor's with that camera. Throws Error if it cannot be written.
+  SaveReport save(MapSaver& saver, const CameraIntrinsics& camera, const StampedPose& last_pose,
+                  const Keyframes& keyframes);
 
  private:
   ComputeContext& compute_;

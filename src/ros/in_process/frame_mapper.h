@@ -43,6 +43,7 @@ class FrameMapper {
   // The last such move of the map that there is; null if it came otherwise.
   const std::shared_ptr<const MapMove>& move() const { return move_; }
   const PipelineParameters& parameters() const { return parameters_; }
+  const CameraIntrinsics& camera() const { return camera_; }
   // Of the last fused frame.
   const StampedPose& lastPose() const { return last_pose_; }
   // What is stored of the map beside its contents.

@@ -173,7 +173,7 @@ Corrections MapRefiner::replace() {
   const Corrections corrections = fuse(*refinement);
   check(!refinement->submaps().isEmpty(), "no keyframe shows anything yet; the map stays as it is");
   MapSaver saver(scratch);
-  refinement->save(saver, {}, {});
+  refinement->save(saver, mapper_.camera(), {}, {});
   refinement.reset();  // its memory is needed
   // Its parameters and its pool are the same at all times.
   const SubmapCollection* submaps = map_->locked([](FusedMap& fused) { return &fused.submaps(); });
@@ -208,7 +208,7 @@ Corrections MapRefiner::saveTo(const std::string& place, float voxel_size_m) {
   MapSaver saver(place);
   const auto [last_pose, keyframes] = map_->locked(
       [this](FusedMap&) { return std::make_pair(mapper_.lastPose(), map_->keyframesOf(generation_)); });
-  refinement.save(saver, {last_pose.stamp_s, corrections.corrected(last_pose)},
+  refinement.save(saver, mapper_.camera(), {last_pose.stamp_s, corrections.corrected(last_pose)},
                   movedBy(corrections, keyframes));
   return corrections;
 }
