@@ -72,6 +72,36 @@ TEST_F(MapSessions, TheSecondIsFoundInItsFirstFrameAndAsAccurateAsOneRun) {
   EXPECT_NE(info.output.find("for the 2. time"), std::string::npos) << info.output;
 }
 
+// Two robots: each has a map of its own, and a world of its own.
+TEST_F(MapSessions, TwoMapsBecomeOne) {
+  const std::string other = folder_ / "other.map";
+  ASSERT_EQ(reconstruct(folder_ / "monday", "out1", {"--map", map_}).status, 0);
+  ASSERT_EQ(reconstruct(folder_ / "tuesday", "out2", {"--map", other}).status, 0);
+  const AppRun refused = runApp("merge_maps", {map_, other, "--output", map_});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.errors.find("another place"), std::string::npos) << refused.errors;
+  const AppRun merged = runApp("merge_maps", {map_, other, "--output", folder_ / "both.map"});
+  ASSERT_EQ(merged.status, 0) << merged.errors;
+  const size_t said = merged.output.find("second map:");
+  ASSERT_NE(said, std::string::npos) << merged.output;
+  Eigen::Vector3d t;
+  Eigen::Quaterniond q;
+  ASSERT_EQ(
+      std::sscanf(merged.output.c_str() + said, "second map: at %lf %lf %lf m, turned by %lf %lf %lf %lf",
+                  &t.x(), &t.y(), &t.z(), &q.x(), &q.y(), &q.z(), &q.w()),
+      7);
+  const Pose T_A_B = orthonormalized(Eigen::Translation3d(t) * q.normalized());
+  Trajectory both = readTrajectory(folder_ / "out1/trajectory.txt");
+  for (const StampedPose& pose : readTrajectory(folder_ / "out2/trajectory.txt"))
+    both.push_back({pose.stamp_s, T_A_B * pose.T_W_D});
+  EXPECT_LE(compareTrajectories(both, readPoses(recording_)).ate_m.rmse, 0.013);
+  EXPECT_EQ(runApp("map_info", {folder_ / "both.map"}).status, 0);
+  EXPECT_EQ(
+      reconstruct(folder_ / "tuesday", "out3", {"--continue", folder_ / "both.map", "--max-frames", "30"})
+          .status,
+      0);
+}
+
 TEST_F(MapSessions, ASensorThatIsElsewhereIsNotFoundAndNothingChanges) {
   const std::string kitchen = realDataFolder("redkitchen");
   if (!fs::exists(kitchen)) GTEST_SKIP() << kitchen << " is not there";
