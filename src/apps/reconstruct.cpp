@@ -81,9 +81,7 @@ void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
                "list every parameter with its value, range and meaning");
 }
 
-ParameterTable allParameters(RunOptions& options) {
-  return options.parameters.table();
-}
+ParameterTable allParameters(RunOptions& options) { return options.parameters.table(); }
 
 void printParameters(const ParameterTable& parameters) {
   for (const Parameter& parameter : parameters) {

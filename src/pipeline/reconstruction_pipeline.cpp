@@ -47,9 +47,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   return result;
 }
 
-void ReconstructionPipeline::closeLoops() {
-  loops_ = std::make_unique<LoopClosing>(parameters_.loops);
-}
+void ReconstructionPipeline::closeLoops() { loops_ = std::make_unique<LoopClosing>(parameters_.loops); }
 
 void ReconstructionPipeline::setKeyframes(Keyframes keyframes) {
   session_.reset(last_pose_.T_W_D, std::move(keyframes));

@@ -35,8 +35,8 @@ class LoopClosing {
   ~LoopClosing();
 
   // A frame was fused at T_W_D, from where the map looks like `view`. It becomes a keyframe if it has
-  // features and is far enough from the last one; of a live map also without, nearer, as a view alone. W is as it was after so many calls of adopt(): frames of
-  // another W are left out.
+  // features and is far enough from the last one; of a live map also without, nearer, as a view alone. W is
+  // as it was after so many calls of adopt(): frames of another W are left out.
   void add(const RgbdFrame& frame, const FrameFeatures& features, const Pose& T_W_D, const ModelView& view,
            uint32_t world = 0);
   // Nothing is known of how the frames to come lie to those before.
@@ -88,7 +88,7 @@ class LoopClosing {
   uint32_t world_ = 0;
   double way_m_ = 0.0;
   std::optional<Pose> last_W_, last_keyframe_W_, last_view_W_;  // a keyframe is a view, too
-  std::deque<Waiting> waiting_;  // the first one is at work
+  std::deque<Waiting> waiting_;                                 // the first one is at work
   std::vector<LoopCandidate> candidates_;
   std::vector<CorrectedKeyframe> known_;
   bool is_moved_ = false;  // since the last adopt()

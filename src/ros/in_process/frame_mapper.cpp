@@ -76,7 +76,8 @@ void FrameMapper::load(FusedMap& map, ReadMap& stored, const std::string& name, 
 
 void FrameMapper::replace(FusedMap& map, ReadMap& refined, const std::string& name,
                           const Corrections& corrections) {
-  MapMove move{map.map().generation(), corrections, corrections.largestMove_m()};
+  MapMove move{map.map().generation(), std::make_shared<const Corrections>(corrections),
+               corrections.largestMove_m()};
   map.replace(refined, name);
   const Pose T_W_last = corrections.corrected(last_pose_);
   move.jump_m = (T_W_last.translation() - last_pose_.T_W_D.translation()).norm();

@@ -12,12 +12,12 @@
 #include "depth_fusion/frames/rgbd_frame.h"
 #include "depth_fusion/frames/textured_frame.h"
 #include "depth_fusion/frames/tracking_result.h"
-#include "depth_fusion/loops/corrections.h"
 #include "depth_fusion/texture_odometry/texture_odometry_parameters.h"
 #include "ros/in_process/process_message.h"
 
 namespace depth_fusion {
 
+class Corrections;
 class SharedMap;
 
 // A depth image with the colour that belongs to it.
@@ -78,9 +78,9 @@ enum class MapMode : uint8_t { kMapping, kLocalisation, kPaused };
 // Closed loops have moved the map: it is another one, of another generation.
 struct MapMove {
   uint32_t from_generation = 0;
-  Corrections corrections;  // of the poses in the map before
-  double moved_m = 0.0;     // of the keyframe that is moved most
-  double jump_m = 0.0;      // of the last pose
+  std::shared_ptr<const Corrections> corrections;  // of the poses in the map before
+  double moved_m = 0.0;                            // of the keyframe that is moved most
+  double jump_m = 0.0;                             // of the last pose
 };
 
 // What travels on the topic tsdf_fusion/model_view: the answer to each tracked frame, with its stamp, and

@@ -177,7 +177,7 @@ void LiveTracker::changeMap(const std::shared_ptr<const MapView>& map) {
   map_ = map;
   if (session_ != nullptr) session_->reset(viewPose(), keyframesOf(map));  // one that is made later does so
   if (is_moved)
-    robot_.correct_poses(map->move->corrections);
+    robot_.correct_poses(*map->move->corrections);
   else
     robot_.forget_poses();
   const std::lock_guard<std::mutex> lock(expected_mutex_);

@@ -84,7 +84,8 @@ TEST_F(MapRefined, IsSavedAndTakesAnotherMapsPlace) {
   fuseAll(refinement, true);
   TemporaryFolder folder;
   MapSaver saver(folder / "refined.map");
-  const SaveReport saved = refinement.save(saver, keyframes_.front()->features.camera, {0.7, truth_.back()}, keyframes_);
+  const SaveReport saved =
+      refinement.save(saver, keyframes_.front()->features.camera, {0.7, truth_.back()}, keyframes_);
   EXPECT_EQ(saved.blocks, refinement.submaps().blockCount());
   BlockMap map(compute(), parameters_.map);
   SubmapCollection submaps(map, parameters_.submaps);
