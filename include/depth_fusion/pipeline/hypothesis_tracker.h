@@ -27,7 +27,8 @@ class HypothesisTracker {
   // Tracks a sensor that is lost from all around the start.
   TrackingResult search(const DepthFrame& frame, const ModelView& view, const MotionPrior& start,
                         StageTimers& timers);
-  // A sensor that was lost is found where about as much of the frame is explained as usual.
+  // A sensor that was lost is found where about as much of the frame is explained as usual, and where the
+  // matches tell in all directions which of alike places it is.
   TrackingResult orStillLost(TrackingResult result) const;
 
   // The frame is fused: it says what is usual.
