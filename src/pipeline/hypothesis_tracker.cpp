@@ -95,6 +95,14 @@ TrackingResult HypothesisTracker::search(const DepthFrame& frame, const ModelVie
   return orLost(lostIfGuessed(tracker_.track(frame, view, {T_W_D, std::nullopt, "search"}, timers)));
 }
 
+TrackingResult HypothesisTracker::compare(const DepthFrame& frame, const ModelView& view, const Pose& T_W_D,
+                                          StageTimers& timers) {
+  const MotionPrior start{T_W_D, std::nullopt, "comparison"};
+  const TrackingResult near = tracker_.track(frame, view, start, timers);
+  const bool fits = !isLost(near) && near.explained >= kHardlyExplained * usual_.explained;
+  return fits ? near : search(frame, view, start, timers);
+}
+
 TrackingResult HypothesisTracker::orStillLost(TrackingResult result) const {
   if (result.explained < explainedBy(kLeastExplained, kFoundAgain)) return lost(std::move(result));
   if (isLost(result) || result.weakest_said >= kSaidWhenFound) return result;

@@ -40,7 +40,8 @@ TrackingSession::TrackingSession(ComputeContext& compute, const PipelineParamete
       preprocessor_(compute, parameters.preprocessing, camera, parameters.depth_sensor),
       tracker_(compute, parameters.icp_tracking, camera),
       relocaliser_(parameters.relocalisation),
-      matcher_(parameters.texture_odometry, parameters.depth_sensor) {}
+      matcher_(parameters.texture_odometry, parameters.depth_sensor),
+      older_(compute) {}
 
 void TrackingSession::setParameters(const PipelineParameters& parameters) {
   preprocessor_.setParameters(parameters.preprocessing, parameters.depth_sensor);
@@ -67,6 +68,7 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
     if (!is_guessed && view != nullptr && pointsInRange(frame) >= parameters_.icp_tracking.min_inliers)
       young_map_.miss();
   }
+  if (found_ && view != nullptr) compareWithOlder(frame.stamp_s, result.T_W_D, view, timers);
   result.map_doubt = watch_.doubt();
   return result;
 }
@@ -138,6 +140,7 @@ const FrameFeatures& TrackingSession::features() const {
 void TrackingSession::follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers) {
   preprocessor_.process(frame, motion_.moveTo(frame.stamp_s, T_W_D), timers);
   depth_ = preprocessor_.result();
+  compareWithOlder(frame.stamp_s, T_W_D, nullptr, timers);
 }
 
 void TrackingSession::skip(double stamp_s, const std::vector<FrameMotion>& measured) {
@@ -153,6 +156,7 @@ void TrackingSession::reset(const Pose& T_W_D, Keyframes keyframes) {
   young_map_.forget();
   guessed_ = {};
   watch_.reset();
+  older_.forget();
   begins_anew_for_.clear();
 }
 
@@ -170,6 +174,7 @@ void TrackingSession::beginAnew() {
   young_map_.forget();
   guessed_ = {};
   watch_.reset();
+  older_.forget();
 }
 
 TrackingResult TrackingSession::begin(const RgbdFrame& frame, const Pose& T_W_D) const {
