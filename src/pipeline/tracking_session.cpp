@@ -56,6 +56,8 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
                                      StageTimers& timers, const Pose& start) {
   check(!found_, "TrackingSession: the frame before is not concluded");
   if (!ahead_) prepareAhead(frame, texture, timers);
+  if (view == nullptr) begun_blindly_s_.reset();
+  if (view == nullptr && !ahead_->knows_motion) begun_blindly_s_ = frame.stamp_s;
   const MotionPrior predicted = takePrepared(frame);
   TrackingResult result = view == nullptr ? begin(frame, begins_anew_for_.empty() ? start : predicted.T_W_D)
                                           : track(frame, predicted, texture.features, *view, timers);
@@ -102,7 +104,7 @@ void TrackingSession::prepareAhead(const RgbdFrame& frame, const TexturedFrame& 
                                    StageTimers& timers) {
   const MotionPrior prior = motion_.predict(frame.stamp_s, texture.measuredMotions());
   preprocessor_.process(frame, motion_.velocity(), timers);
-  ahead_ = {frame.stamp_s, prior, preprocessor_.result()};
+  ahead_ = {frame.stamp_s, prior, preprocessor_.result(), !motion_.velocity().isZero()};
 }
 
 MotionPrior TrackingSession::takePrepared(const RgbdFrame& frame) {
@@ -119,7 +121,7 @@ void TrackingSession::conclude(bool fused) {
     relocaliser_.add(found_->stamp_s, found_->features, found_->result.T_W_D);
     tracker_.accept(found_->result);
     const bool begins_map = found_->result.prior == kStart;
-    begins_map ? young_map_.begin() : young_map_.grow();
+    begins_map ? young_map_.begin() : growMap();
     if (begins_map) begins_anew_for_.clear();
     watch_.add(found_->stamp_s, found_->result);
   } else {

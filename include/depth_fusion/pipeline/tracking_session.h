@@ -76,6 +76,7 @@ class TrackingSession {
     double stamp_s;
     MotionPrior prior;
     std::shared_ptr<const DepthFrame> depth;
+    bool knows_motion;  // something said how fast the sensor was while it was taken
   };
   // A frame with a pose that is not concluded.
   struct FoundFrame {
@@ -95,6 +96,9 @@ class TrackingSession {
   // more, by the motion of before.
   TrackingResult trackUnbent(const RgbdFrame& frame, const MotionPrior& prior, const TrackingResult& bent,
                              const ModelView& view, StageTimers& timers);
+  // Another frame is fused. The second one tells how fast the sensor was in the first: a map that began with
+  // a bent frame is given up.
+  void growMap();
   int pointsInRange(const RgbdFrame& frame) const;
   // Takes the frame's pose, unless it is guessed and may be far off by now: then the frame is lost.
   void take(double stamp_s, FrameFeatures features, TrackingResult& result);
@@ -126,6 +130,7 @@ class TrackingSession {
   YoungMap young_map_;
   MapWatch watch_;
   OlderView older_;
+  std::optional<double> begun_blindly_s_;  // when the map began, if nothing said then how fast the sensor was
   std::string begins_anew_for_;            // why the next map is one that begins anew; else empty
   std::shared_ptr<const DepthFrame> depth_;
   std::optional<FoundFrame> found_;
