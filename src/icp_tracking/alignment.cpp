@@ -15,9 +15,6 @@ namespace {
 
 // No surface leaves more directions free than a plane does, or a sphere.
 constexpr int kMostFree = 3;
-// The least part of what the frame's points would say of a motion that their matches have to say, for it to
-// be measured by them.
-constexpr double kSaid = 0.3;
 
 // The information that the matches hold, of which `correlated` count as one.
 IcpSystem weighed(const IcpSystem& system, double correlated) {
@@ -60,9 +57,9 @@ double distanceFromPrior(const DegeneracyAnalysis& analysis, const Pose& T_M_D,
   return std::sqrt(std::max(squared, 0.0) / (6 - analysis.freeDirections()));
 }
 
-bool slides(const IcpTracker::Alignment& alignment, const DepthFrame& frame) {
-  return alignment.smallest_eigenvalue <
-         kSaid * informationAlong(alignment.weakest, frame.levels.back(), alignment.T_M_D);
+double weakestSaid(const IcpTracker::Alignment& alignment, const DepthFrame& frame) {
+  const double of_all = informationAlong(alignment.weakest, frame.levels.back(), alignment.T_M_D);
+  return of_all > 0.0 ? alignment.smallest_eigenvalue / of_all : 1.0;
 }
 
 std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker::SystemPrior& prior,

@@ -48,9 +48,10 @@ IcpSolution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const I
 double distanceFromPrior(const DegeneracyAnalysis& analysis, const Pose& T_M_D,
                          const IcpTracker::SystemPrior& prior, double correlated);
 
-// Whether those points that would tell how far the frame is along its weakest direction are the ones that do
-// not match: then its pose slides along that, as past lamps that are alike.
-bool slides(const IcpTracker::Alignment& alignment, const DepthFrame& frame);
+// What the matches say along the weakest direction (TrackingResult::weakest_said). Where it is little, those
+// points that would tell how far the frame is along it are the ones that do not match: its pose slides along
+// that, as past lamps that are alike.
+double weakestSaid(const IcpTracker::Alignment& alignment, const DepthFrame& frame);
 // Why the alignment is not to be trusted, or nothing.
 std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker::SystemPrior& prior,
                        const IcpTrackingParameters& parameters);

@@ -11,6 +11,9 @@ namespace {
 
 // Where nothing else says anything, geometry has to say this part of the threshold at least.
 constexpr double kWeakly = 0.5;
+// The least part of what the frame's points would say of a motion that their matches have to say, for it to
+// be measured by them.
+constexpr double kSaid = 0.3;
 
 // A step is of use as far as matches reach: no point at the box's border is to move farther than their gate.
 Vector6d limited(const Vector6d& twist, const MatchGates& gates, const Eigen::AlignedBox3d& box) {
@@ -130,7 +133,8 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
     result.reason = alignment.free_directions;
   }
   const bool may_slide = parameters_.degeneracy_threshold > 0.0f && !prior.covariance && alignment.free == 0;
-  if (is_found && may_slide && slides(alignment, frame)) {
+  if (is_found && may_slide) result.weakest_said = weakestSaid(alignment, frame);
+  if (result.weakest_said < kSaid) {
     result.guessed_directions = 1;
     result.reason = alignment.weakest_name;
     const Vector6d direction = alignment.weakest.normalized();

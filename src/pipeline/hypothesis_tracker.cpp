@@ -18,6 +18,9 @@ constexpr double kLeastExplained = 0.3;  // of a frame by a map of few frames, e
 constexpr double kWorseMatches = 0.85;   // than usual, from which on the frame is lost
 constexpr double kDisagreement = 4.0;    // between prior and depth, in standard deviations
 constexpr double kAgreement = 2.0;       // the same, up to which one confirms the other
+// What the matches have to say along the weakest direction (weakest_said), for a lost sensor to be found:
+// more than in a frame that is tracked, which is known to be near.
+constexpr double kSaidWhenFound = 0.55;
 // A hypothesis wins over the best one before it if the map explains so much more by it, from as many inliers
 // or so.
 constexpr double kClearlyMore = 1.03;
@@ -92,9 +95,25 @@ TrackingResult HypothesisTracker::search(const DepthFrame& frame, const ModelVie
   return orLost(lostIfGuessed(tracker_.track(frame, view, {T_W_D, std::nullopt, "search"}, timers)));
 }
 
+TrackingResult HypothesisTracker::compare(const DepthFrame& frame, const ModelView& view, const Pose& T_W_D,
+                                          StageTimers& timers) {
+  const MotionPrior start{T_W_D, std::nullopt, "comparison"};
+  const TrackingResult near = tracker_.track(frame, view, start, timers);
+  const bool fits = !isLost(near) && near.explained >= kHardlyExplained * usual_.explained;
+  return fits ? near : search(frame, view, start, timers);
+}
+
 TrackingResult HypothesisTracker::orStillLost(TrackingResult result) const {
-  const bool is_explained = result.explained >= explainedBy(kLeastExplained, kFoundAgain);
-  return is_explained ? result : lost(std::move(result));
+  if (result.explained < explainedBy(kLeastExplained, kFoundAgain)) return lost(std::move(result));
+  if (isLost(result) || result.weakest_said >= kSaidWhenFound) return result;
+  char reason[200];
+  std::snprintf(reason, sizeof(reason),
+                "places may look alike: along one direction the matches say %.0f %% of what the frame's "
+                "points would, and %.0f %% are asked of a sensor that is lost",
+                100.0 * result.weakest_said, 100.0 * kSaidWhenFound);
+  result.status = TrackingStatus::kLost;
+  result.reason = reason;
+  return result;
 }
 
 void HypothesisTracker::accept(const TrackingResult& result) {

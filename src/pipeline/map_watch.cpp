@@ -11,6 +11,10 @@ constexpr double kMemory_frames = 300.0;  // of what is usual
 constexpr double kShortMemory_frames = 15.0;
 constexpr int kManyFrames = 30;  // that speak against the map until it is doubted
 constexpr int kManyGuesses = 5;  // a fast hand moves by a centimetre or two in each
+constexpr int kFramesToComparison = 15;
+constexpr int kManyComparisons = 5;  // that differ, in a row
+// Between a pose and where an older view puts it: half of what makes a pose a wrong one.
+constexpr double kMoved_m = 0.03, kMoved_rad = 0.035;
 constexpr double kMoreContradicted = 0.15;
 constexpr double kWorseMatches = 0.85;
 
@@ -54,6 +58,26 @@ void MapWatch::watchFit(double stamp_s, const Fit& fit) {
       100.0 * of_late_.contradicted, 100.0 * usual_.contradicted, of_late_.match_quality,
       usual_.match_quality);
   say(misfit_.since_s, what);
+}
+
+bool MapWatch::wantsComparison() {
+  if (!doubt_.empty()) return false;
+  ++frames_since_comparison_;
+  if (moved_.frames == 0 && frames_since_comparison_ < kFramesToComparison) return false;
+  frames_since_comparison_ = 0;
+  return true;
+}
+
+void MapWatch::compare(double stamp_s, const Pose& T_D_older) {
+  const double m = T_D_older.translation().norm(), rad = rotationAngle(T_D_older);
+  moved_.note(stamp_s, m > kMoved_m || rad > kMoved_rad);
+  if (moved_.frames == 0) agreed_s_ = stamp_s;
+  if (moved_.frames < kManyComparisons) return;
+  char what[200];
+  std::snprintf(what, sizeof(what),
+                "as it was seen before, it puts the sensor %.0f mm and %.1f degrees from where it does now",
+                1e3 * m, rad * 180.0 / 3.14159265358979);
+  say(agreed_s_, what);
 }
 
 void MapWatch::say(double since_s, const std::string& what) {

@@ -43,6 +43,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const P
   session_.follow(frame, T_W_D, timers_);
   result.tracking.status = TrackingStatus::kTracking;
   result.tracking.T_W_D = T_W_D;
+  result.tracking.map_doubt = session_.mapDoubt();
   fuse(frame, result, true);
   return result;
 }

@@ -40,7 +40,8 @@ TrackingSession::TrackingSession(ComputeContext& compute, const PipelineParamete
       preprocessor_(compute, parameters.preprocessing, camera, parameters.depth_sensor),
       tracker_(compute, parameters.icp_tracking, camera),
       relocaliser_(parameters.relocalisation),
-      matcher_(parameters.texture_odometry, parameters.depth_sensor) {}
+      matcher_(parameters.texture_odometry, parameters.depth_sensor),
+      older_(compute) {}
 
 void TrackingSession::setParameters(const PipelineParameters& parameters) {
   preprocessor_.setParameters(parameters.preprocessing, parameters.depth_sensor);
@@ -55,6 +56,8 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
                                      StageTimers& timers, const Pose& start) {
   check(!found_, "TrackingSession: the frame before is not concluded");
   if (!ahead_) prepareAhead(frame, texture, timers);
+  if (view == nullptr) begun_blindly_s_.reset();
+  if (view == nullptr && !ahead_->knows_motion) begun_blindly_s_ = frame.stamp_s;
   const MotionPrior predicted = takePrepared(frame);
   TrackingResult result = view == nullptr ? begin(frame, begins_anew_for_.empty() ? start : predicted.T_W_D)
                                           : track(frame, predicted, texture.features, *view, timers);
@@ -67,6 +70,7 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
     if (!is_guessed && view != nullptr && pointsInRange(frame) >= parameters_.icp_tracking.min_inliers)
       young_map_.miss();
   }
+  if (found_ && view != nullptr) compareWithOlder(frame.stamp_s, result.T_W_D, view, timers);
   result.map_doubt = watch_.doubt();
   return result;
 }
@@ -100,7 +104,7 @@ void TrackingSession::prepareAhead(const RgbdFrame& frame, const TexturedFrame& 
                                    StageTimers& timers) {
   const MotionPrior prior = motion_.predict(frame.stamp_s, texture.measuredMotions());
   preprocessor_.process(frame, motion_.velocity(), timers);
-  ahead_ = {frame.stamp_s, prior, preprocessor_.result()};
+  ahead_ = {frame.stamp_s, prior, preprocessor_.result(), !motion_.velocity().isZero()};
 }
 
 MotionPrior TrackingSession::takePrepared(const RgbdFrame& frame) {
@@ -117,7 +121,7 @@ void TrackingSession::conclude(bool fused) {
     relocaliser_.add(found_->stamp_s, found_->features, found_->result.T_W_D);
     tracker_.accept(found_->result);
     const bool begins_map = found_->result.prior == kStart;
-    begins_map ? young_map_.begin() : young_map_.grow();
+    begins_map ? young_map_.begin() : growMap();
     if (begins_map) begins_anew_for_.clear();
     watch_.add(found_->stamp_s, found_->result);
   } else {
@@ -138,6 +142,7 @@ const FrameFeatures& TrackingSession::features() const {
 void TrackingSession::follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers) {
   preprocessor_.process(frame, motion_.moveTo(frame.stamp_s, T_W_D), timers);
   depth_ = preprocessor_.result();
+  compareWithOlder(frame.stamp_s, T_W_D, nullptr, timers);
 }
 
 void TrackingSession::skip(double stamp_s, const std::vector<FrameMotion>& measured) {
@@ -153,6 +158,7 @@ void TrackingSession::reset(const Pose& T_W_D, Keyframes keyframes) {
   young_map_.forget();
   guessed_ = {};
   watch_.reset();
+  older_.forget();
   begins_anew_for_.clear();
 }
 
@@ -170,6 +176,7 @@ void TrackingSession::beginAnew() {
   young_map_.forget();
   guessed_ = {};
   watch_.reset();
+  older_.forget();
 }
 
 TrackingResult TrackingSession::begin(const RgbdFrame& frame, const Pose& T_W_D) const {

@@ -3,8 +3,8 @@
 namespace depth_fusion {
 
 void YoungMap::begin() {
+  forget();
   frames_ = 1;
-  misses_ = 0;
 }
 
 void YoungMap::grow() {
@@ -13,11 +13,13 @@ void YoungMap::grow() {
 }
 
 bool YoungMap::isGivenUp(const RelocalisationParameters& parameters) const {
-  return frames_ && *frames_ <= parameters.young_map_frames && misses_ >= parameters.give_up_after_frames;
+  const bool is_young = frames_ && *frames_ <= parameters.young_map_frames;
+  return is_young && (!why_.empty() || misses_ >= parameters.give_up_after_frames);
 }
 
 std::string YoungMap::reason() const {
-  return "a map begins anew, for nothing fitted the one before, of " + std::to_string(frames_.value_or(0)) +
+  if (!why_.empty()) return "a map begins anew, for " + why_;
+  return "a map begins anew, for nothing fitted the one before, of " + std::to_string(frames()) +
          " frames, in " + std::to_string(misses_) + " frames";
 }
 

@@ -13,7 +13,8 @@ ParameterTable RelocalisationParameters::table() {
           number("min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0,
                  "a lost frame stays lost if a smaller part of its points matches the model view"),
           number("young_map_frames", &young_map_frames, 0, 100,
-                 "a map of so many frames at most begins anew if nothing fits it; 0: no map does"),
+                 "a map of so many frames at most begins anew if nothing fits it, or if its first frame was "
+                 "bent; 0: no map does"),
           number("give_up_after_frames", &give_up_after_frames, 1, 10000,
                  "frames in a row that do not fit such a map, until it begins anew")};
 }

@@ -37,6 +37,9 @@ struct TrackingResult {
   double match_quality = 0.0;  // the same mean over the inliers alone
   double rmse_m = 0.0;         // of the inliers' point-to-plane distances, weighted by the sensor's accuracy
   double smallest_eigenvalue = 0.0;  // of the system in the unit cube, divided by the matches' weights
+  // What the matches say of the motion that they say least of, as a part of what all points of the frame
+  // would say of it if they matched; 1 where a measured prior tells it, or where the motion is free.
+  double weakest_said = 1.0;
   int iterations = 0;
 };
 

@@ -27,7 +27,12 @@ class HypothesisTracker {
   // Tracks a sensor that is lost from all around the start.
   TrackingResult search(const DepthFrame& frame, const ModelView& view, const MotionPrior& start,
                         StageTimers& timers);
-  // A sensor that was lost is found where about as much of the frame is explained as usual.
+  // Where depth alone puts a frame of a known pose by another view: from that pose, and if little of the
+  // frame is explained there, from all around it.
+  TrackingResult compare(const DepthFrame& frame, const ModelView& view, const Pose& T_W_D,
+                         StageTimers& timers);
+  // A sensor that was lost is found where about as much of the frame is explained as usual, and where the
+  // matches tell in all directions which of alike places it is.
   TrackingResult orStillLost(TrackingResult result) const;
 
   // The frame is fused: it says what is usual.

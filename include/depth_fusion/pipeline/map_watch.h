@@ -11,6 +11,10 @@ class MapWatch {
  public:
   // The frame is fused.
   void add(double stamp_s, const TrackingResult& result);
+  // Whether the next frame is to be compared with an older view of the map; says so of some frames only.
+  bool wantsComparison();
+  // By the older view, the frame is this motion away from its pose; none if the view is taken then.
+  void compare(double stamp_s, const Pose& T_D_older);
   // Why the map may be wrong, and since when; empty if nothing speaks for it.
   const std::string& doubt() const { return doubt_; }
   // Another map is watched.
@@ -38,7 +42,9 @@ class MapWatch {
 
   int frames_ = 0;
   Fit usual_, of_late_;
-  Suspicion guessed_, misfit_;
+  Suspicion guessed_, misfit_, moved_;
+  int frames_since_comparison_ = 0;
+  double agreed_s_ = 0.0;  // when the last comparison did not differ
   std::string doubt_;
 };
 

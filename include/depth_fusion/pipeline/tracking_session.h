@@ -11,6 +11,7 @@
 #include "depth_fusion/pipeline/hypothesis_tracker.h"
 #include "depth_fusion/pipeline/map_watch.h"
 #include "depth_fusion/pipeline/motion_model.h"
+#include "depth_fusion/pipeline/older_view.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "depth_fusion/pipeline/young_map.h"
 #include "depth_fusion/preprocessing/depth_preprocessor.h"
@@ -60,6 +61,9 @@ class TrackingSession {
   // The map is emptied; the next step() without a view begins it anew where the sensor is expected.
   void beginAnew();
 
+  // TrackingResult::map_doubt, also of frames whose pose is known from elsewhere.
+  const std::string& mapDoubt() const { return watch_.doubt(); }
+
   // The frame of the last step() or follow(), preprocessed.
   std::shared_ptr<const DepthFrame> depth() const { return depth_; }
   // Those of the frame with a pose from the last step(), until it is concluded.
@@ -72,6 +76,7 @@ class TrackingSession {
     double stamp_s;
     MotionPrior prior;
     std::shared_ptr<const DepthFrame> depth;
+    bool knows_motion;  // something said how fast the sensor was while it was taken
   };
   // A frame with a pose that is not concluded.
   struct FoundFrame {
@@ -91,6 +96,9 @@ class TrackingSession {
   // more, by the motion of before.
   TrackingResult trackUnbent(const RgbdFrame& frame, const MotionPrior& prior, const TrackingResult& bent,
                              const ModelView& view, StageTimers& timers);
+  // Another frame is fused. The second one tells how fast the sensor was in the first: a map that began with
+  // a bent frame is given up.
+  void growMap();
   int pointsInRange(const RgbdFrame& frame) const;
   // Takes the frame's pose, unless it is guessed and may be far off by now: then the frame is lost.
   void take(double stamp_s, FrameFeatures features, TrackingResult& result);
@@ -104,6 +112,10 @@ class TrackingSession {
   TrackingResult searchAtGiven(StageTimers& timers);
   TrackingResult searchAbout(const MotionPrior& start, StageTimers& timers);
   TrackingResult trackFrom(const MotionPrior& prior, StageTimers& timers);
+  // Watches whether an older view of the map puts the frame elsewhere than at T_W_D, some frames in a while;
+  // `view` becomes the older one where the frame sees too little of that. Null: the map is rendered from
+  // T_W_D.
+  void compareWithOlder(double stamp_s, const Pose& T_W_D, const ModelView* view, StageTimers& timers);
   // The result, or that the frame is lost if too little of it fits the map.
   TrackingResult orStillLost(TrackingResult result) const;
 
@@ -117,7 +129,9 @@ class TrackingSession {
   GuessedMotion guessed_;
   YoungMap young_map_;
   MapWatch watch_;
-  std::string begins_anew_for_;  // why the next map is one that begins anew; else empty
+  OlderView older_;
+  std::optional<double> begun_blindly_s_;  // when the map began, if nothing said then how fast the sensor was
+  std::string begins_anew_for_;            // why the next map is one that begins anew; else empty
   std::shared_ptr<const DepthFrame> depth_;
   std::optional<FoundFrame> found_;
   size_t next_search_ = 0;  // of the places farther about the last pose

@@ -16,9 +16,13 @@ class YoungMap {
   void grow();
   // A frame that has enough depth fits nothing.
   void miss() { ++misses_; }
+  // What it began with is wrong, for this reason.
+  void giveUp(const std::string& why) { why_ = why; }
   // The map is another one, begun by somebody else.
   void forget() { *this = {}; }
 
+  // That were fused; 0 if nobody counted them.
+  int frames() const { return frames_.value_or(0); }
   bool isGivenUp(const RelocalisationParameters& parameters) const;
   // Why it is given up.
   std::string reason() const;
@@ -26,6 +30,7 @@ class YoungMap {
  private:
   std::optional<int> frames_;  // that were fused; none if nobody counted them
   int misses_ = 0;             // since the last of them
+  std::string why_;            // it was given up at once
 };
 
 }  // namespace depth_fusion

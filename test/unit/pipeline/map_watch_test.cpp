@@ -65,5 +65,38 @@ TEST(MapWatch, DoubtsAMapWhosePosesWereGuessed) {
   EXPECT_NE(map.doubt().find("sliding along x"), std::string::npos) << map.doubt();
 }
 
+// Compares so many frames with an older view, which puts the sensor so far away; returns how many of them the
+// watch asked for.
+int compare(MapWatch& watch, int frames, double away_m) {
+  static double stamp_s = 0.0;
+  Pose T_D_older = Pose::Identity();
+  T_D_older.translation().x() = away_m;
+  int compared = 0;
+  for (int i = 0; i < frames; ++i, stamp_s += kFrame_s) {
+    if (!watch.wantsComparison()) continue;
+    watch.compare(stamp_s, T_D_older);
+    ++compared;
+  }
+  return compared;
+}
+
+TEST(MapWatch, ComparesSomeFramesWithAnOlderViewAndMoreOfThemWhereTheyDiffer) {
+  MapWatch watch;
+  EXPECT_EQ(compare(watch, 150, 0.01), 10);
+  EXPECT_EQ(compare(watch, 15 + 3, 0.04), 4);
+  EXPECT_EQ(watch.doubt(), "") << "it may have been a passer-by";
+  EXPECT_EQ(compare(watch, 16, 0.01), 2);
+  EXPECT_EQ(watch.doubt(), "");
+}
+
+TEST(MapWatch, DoubtsAMapThatMovesAlongWithWrongPoses) {
+  MapWatch watch;
+  compare(watch, 15, 0.01);
+  compare(watch, 15 + 4, 0.04);
+  EXPECT_NE(watch.doubt().find("the map may be wrong since "), std::string::npos) << watch.doubt();
+  EXPECT_NE(watch.doubt().find("40 mm"), std::string::npos) << watch.doubt();
+  EXPECT_FALSE(watch.wantsComparison()) << "it is doubted for good";
+}
+
 }  // namespace
 }  // namespace depth_fusion

@@ -119,6 +119,29 @@ TEST(ReconstructionPipeline, TracksOnFromAPoseThatWasGiven) {
   EXPECT_LT((result.tracking.T_W_D.translation() - T_W_D.translation()).norm(), 0.015);
 }
 
+// Tracks for a second, and follows poses for another that are off by so much. Returns the doubt about the
+// map.
+std::string doubtAfterPosesThatAreOff(const Eigen::Vector3d& off_m) {
+  const std::vector<RgbdFrame> frames = simulateRoom(kCamera, 60);
+  ReconstructionPipeline pipeline(compute(), coarseRoomParameters(), kCamera);
+  FrameResult result;
+  for (int i = 0; i < 30; ++i) result = pipeline.processFrame(frames[i]);
+  EXPECT_TRUE(isTracking(result)) << result.tracking.reason;
+  for (int i = 30; i < 60; ++i) {
+    const Pose T_W_D = frames[0].T_W_D->inverse() * *frames[i].T_W_D * Eigen::Translation3d(off_m);
+    result = pipeline.processFrame(frames[i], T_W_D);
+  }
+  return result.tracking.map_doubt;
+}
+
+TEST(ReconstructionPipeline, GivenPosesThatAreWrongForASecondAreNoticed) {
+  EXPECT_EQ(doubtAfterPosesThatAreOff({0.0, 0.0, 0.0}), "");
+  for (const Eigen::Vector3d& off_m : {Eigen::Vector3d(0.12, 0.0, 0.0), Eigen::Vector3d(0.0, 0.0, -0.12)}) {
+    const std::string doubt = doubtAfterPosesThatAreOff(off_m);
+    EXPECT_NE(doubt.find("as it was seen before"), std::string::npos) << doubt;
+  }
+}
+
 // Covered for a second, then back where it was a while before: keyframes say where that is.
 TEST(ReconstructionPipeline, ComesBackAfterABlackoutAndAJump) {
   SimulationOptions options;

@@ -206,6 +206,32 @@ TEST_P(TrackingSessionTest, ALostSensorIsFoundAlsoWhereNotAllIsAsItWas) {
   EXPECT_LT((trueMotion(0, last).inverse() * result.T_W_D).translation().norm(), 0.015);
 }
 
+struct SecondFrame {
+  int i;
+  double interval_s, readout_s;
+  bool tells_that_first_is_bent;
+};
+
+// The sensor is as fast as the interval between the two frames is said to be short.
+TEST(TrackingSessionYoungMap, AMapThatBeginsWithABentFrameIsGivenUp) {
+  for (const SecondFrame& frame :
+       {SecondFrame{1, 1.0 / 30.0, 0.03, false}, SecondFrame{1, 0.001, 0.03, true},
+        SecondFrame{1, 0.001, 0.0, false}, SecondFrame{4, 0.1, 1.0, true}, SecondFrame{4, 0.2, 1.0, false}}) {
+    PipelineParameters parameters = sessionParameters();
+    parameters.preprocessing.readout_s = static_cast<float>(frame.readout_s);
+    FusedRoom room(false, parameters);
+    room.fuse(0, room.step(0).T_W_D);
+    room.session().conclude(true);
+    RgbdFrame second = roomFrames()[frame.i];
+    second.stamp_s = roomFrames()[0].stamp_s + frame.interval_s;
+    const TrackingResult result = room.step(frame.i, second);
+    ASSERT_EQ(result.status, TrackingStatus::kTracking) << result.reason;
+    EXPECT_FALSE(room.session().givesUpMap());
+    room.session().conclude(true);
+    EXPECT_EQ(room.session().givesUpMap(), frame.tells_that_first_is_bent) << frame.interval_s;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutTexture, TrackingSessionTest, testing::Bool());
 
 }  // namespace
