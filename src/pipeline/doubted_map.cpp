@@ -45,8 +45,10 @@ void TrackingSession::compareWithOlder(double stamp_s, const Pose& T_W_D, const 
   if (older_.view() != nullptr) by_older = tracker_.compare(*depth_, *older_.view(), T_W_D, timers);
   const bool is_measured = by_older.status != TrackingStatus::kLost && by_older.guessed_directions == 0 &&
                            by_older.inlier_fraction >= kSharedWithOlder;
-  if (!is_measured) older_.keep(view != nullptr ? *view : render_(T_W_D));
-  watch_.compare(stamp_s, is_measured ? T_W_D.inverse() * by_older.T_W_D : Pose::Identity());
+  if (is_measured) return watch_.compare(stamp_s, T_W_D.inverse() * by_older.T_W_D);
+  if (watch_.waitsForComparison()) return;
+  older_.keep(view != nullptr ? *view : render_(T_W_D));
+  watch_.compare(stamp_s, Pose::Identity());
 }
 
 }  // namespace depth_fusion

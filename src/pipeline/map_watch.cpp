@@ -68,7 +68,10 @@ bool MapWatch::wantsComparison() {
   return true;
 }
 
+bool MapWatch::waitsForComparison() { return moved_.frames > 0 && ++undecided_ <= kManyComparisons; }
+
 void MapWatch::compare(double stamp_s, const Pose& T_D_older) {
+  undecided_ = 0;
   const double m = T_D_older.translation().norm(), rad = rotationAngle(T_D_older);
   moved_.note(stamp_s, m > kMoved_m || rad > kMoved_rad);
   if (moved_.frames == 0) agreed_s_ = stamp_s;

@@ -15,6 +15,9 @@ class MapWatch {
   bool wantsComparison();
   // By the older view, the frame is this motion away from its pose; none if the view is taken then.
   void compare(double stamp_s, const Pose& T_D_older);
+  // A frame cannot be compared. Whether the next one is to be, for some frames before it have differed: what
+  // says nothing decides nothing.
+  bool waitsForComparison();
   // Why the map may be wrong, and since when; empty if nothing speaks for it.
   const std::string& doubt() const { return doubt_; }
   // Another map is watched.
@@ -44,6 +47,7 @@ class MapWatch {
   Fit usual_, of_late_;
   Suspicion guessed_, misfit_, moved_;
   int frames_since_comparison_ = 0;
+  int undecided_ = 0;      // frames in a row that could not be compared
   double agreed_s_ = 0.0;  // when the last comparison did not differ
   std::string doubt_;
 };

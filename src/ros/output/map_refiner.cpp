@@ -91,6 +91,7 @@ void MapRefiner::look() {
 }
 
 void MapRefiner::follow() {
+  const std::shared_ptr<LoopClosing> before = loops_;  // ends when the map is not locked any more
   map_->locked([this](FusedMap& fused) {
     const uint32_t generation = fused.map().generation();
     if (generation == std::exchange(generation_, generation)) return;

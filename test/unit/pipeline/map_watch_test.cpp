@@ -98,5 +98,25 @@ TEST(MapWatch, DoubtsAMapThatMovesAlongWithWrongPoses) {
   EXPECT_FALSE(watch.wantsComparison()) << "it is doubted for good";
 }
 
+// Between frames that differ, some cannot be compared.
+TEST(MapWatch, WhatCannotBeComparedDecidesNothing) {
+  Pose away = Pose::Identity();
+  away.translation().x() = 0.1;
+  MapWatch watch;
+  EXPECT_FALSE(watch.waitsForComparison()) << "nothing has differed";
+  for (int frame = 0; frame < 5; ++frame) {
+    EXPECT_EQ(watch.doubt(), "");
+    watch.compare(0.1 * frame, away);
+    if (frame < 4) {
+      EXPECT_TRUE(watch.waitsForComparison());
+    }
+  }
+  EXPECT_NE(watch.doubt(), "");
+  MapWatch gives_up;
+  gives_up.compare(0.0, away);
+  for (int frame = 0; frame < 5; ++frame) EXPECT_TRUE(gives_up.waitsForComparison());
+  EXPECT_FALSE(gives_up.waitsForComparison());
+}
+
 }  // namespace
 }  // namespace depth_fusion
