@@ -13,12 +13,6 @@
 
 namespace depth_fusion {
 
-namespace {
-
-constexpr double kSayAgain_s = 60.0;  // what is wrong with the robot's tf, and stays so
-
-}  // namespace
-
 using WaitingFrame = Deferred<TexturedSensorFrame>;
 
 class IcpTrackingNodelet : public StageNodelet {
@@ -144,11 +138,7 @@ void IcpTrackingNodelet::publish(const SensorFrame& frame, const LiveResult& res
 
 void IcpTrackingNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   report_->diagnose(sensor_subscriber_ ? sensor_subscriber_->problem() : "", status);
-  const std::string of_robot = pose_publisher_->problem();
-  if (!of_robot.empty()) {
-    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, of_robot);
-    NODELET_WARN_STREAM_THROTTLE(kSayAgain_s, of_robot);
-  }
+  pose_publisher_->diagnose(status);
   status.add("queue", worker_->waiting());
 }
 

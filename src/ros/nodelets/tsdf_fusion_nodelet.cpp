@@ -9,10 +9,8 @@
 #include "ros/input/posed_frame_subscriber.h"
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
-#include "ros/output/map_commands.h"
-#include "ros/output/map_keeper.h"
-#include "ros/output/map_refiner.h"
 #include "ros/output/map_reporter.h"
+#include "ros/output/map_services.h"
 
 namespace depth_fusion {
 
@@ -39,9 +37,7 @@ class TsdfFusionNodelet : public StageNodelet {
   ros::Subscriber frame_subscriber_;
   std::unique_ptr<Worker<WaitingFrame>> worker_;
   std::unique_ptr<PosedFrameSubscriber> posed_subscriber_;  // of frames with poses from elsewhere
-  std::unique_ptr<MapCommands> commands_;
-  std::unique_ptr<MapKeeper> keeper_;
-  std::unique_ptr<MapRefiner> refiner_;  // works in the keeper's thread
+  std::unique_ptr<MapServices> services_;
 };
 
 TsdfFusionNodelet::~TsdfFusionNodelet() {
@@ -49,8 +45,7 @@ TsdfFusionNodelet::~TsdfFusionNodelet() {
   frame_subscriber_.shutdown();
   if (worker_ != nullptr) worker_->stop();
   posed_subscriber_.reset();
-  refiner_.reset();
-  keeper_.reset();  // saves the map, to which nothing comes any more
+  services_.reset();  // saves the map, to which nothing comes any more
 }
 
 void TsdfFusionNodelet::start() {
@@ -81,11 +76,9 @@ void TsdfFusionNodelet::advertise() {
   const AnnounceMap announce = [this](const std::string& news, FusedMap& map) {
     reporter_->announce(news, *mapper_, map, counter_.account());
   };
-  keeper_ = std::make_unique<MapKeeper>(map_, *mapper_, parameters_.keeper, handle, announce);
-  keeper_->loadAtStart();
-  refiner_ = std::make_unique<MapRefiner>(map_, *mapper_, parameters_.refiner, *keeper_, handle, announce);
+  services_ = std::make_unique<MapServices>(map_, *mapper_, parameters_.keeper, parameters_.refiner, handle,
+                                            callbacks_, announce);
   subscribe();
-  commands_ = std::make_unique<MapCommands>(map_, *mapper_, handle, callbacks_, announce);
 }
 
 void TsdfFusionNodelet::subscribe() {
@@ -143,8 +136,7 @@ void TsdfFusionNodelet::process(const TrackedFrame& frame) {
 
 void TsdfFusionNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   reporter_->diagnose(posed_subscriber_ ? posed_subscriber_->problem() : "", status);
-  keeper_->diagnose(status);
-  refiner_->diagnose(status);
+  services_->diagnose(status);
   status.add("queue", worker_->waiting());
   status.add("device", map_->compute->device().name);
 }

@@ -1,5 +1,7 @@
 #include "ros/output/pose_publisher.h"
 
+#include <ros/console.h>
+
 #include <boost/make_shared.hpp>
 #include <cstdint>
 
@@ -13,6 +15,7 @@ constexpr double kPathStep_m = 0.02;
 constexpr double kPathStep_rad = 0.05;
 constexpr size_t kMaxPath = 5000;
 constexpr double kPathBytes_s = 1e5;  // a long path goes out less often
+constexpr double kSayAgain_s = 60.0;  // what is wrong with the robot's tf, and stays so
 
 }  // namespace
 
@@ -47,6 +50,13 @@ void PosePublisher::reset() {
   if (path_.poses.empty()) return;
   path_.poses.clear();
   publishPath();
+}
+
+void PosePublisher::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const std::string problem = transforms_.problem();
+  if (problem.empty()) return;
+  status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, problem);
+  ROS_WARN_STREAM_THROTTLE(kSayAgain_s, problem);
 }
 
 void PosePublisher::correct(const Corrections& corrections) {

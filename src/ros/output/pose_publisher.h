@@ -1,6 +1,7 @@
 // The tracker's poses for the rest of the robot: tf2 (REP 105), PoseWithCovarianceStamped, Path.
 #pragma once
 
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <nav_msgs/Path.h>
 #include <ros/node_handle.h>
@@ -30,8 +31,8 @@ class PosePublisher {
   void reset();
   // Closed loops have moved the poses: the path goes out again as they have it.
   void correct(const Corrections& corrections);
-  // What is wrong with the robot's odometry or tree on tf; empty if nothing is. From any thread.
-  std::string problem() const { return transforms_.problem(); }
+  // Warns of what is wrong with the robot's odometry or tree on tf. From any thread.
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
   // A path that has grown is sent, at a rate that keeps its bytes a second bounded.
