@@ -81,8 +81,6 @@ void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
                "list every parameter with its value, range and meaning");
 }
 
-ParameterTable allParameters(RunOptions& options) { return options.parameters.table(); }
-
 void printParameters(const ParameterTable& parameters) {
   for (const Parameter& parameter : parameters) {
     std::cout << parameter.name << ": " << valueText(parameter) << "   # " << rangeText(parameter) << " "
@@ -110,9 +108,9 @@ int run(const Arguments& arguments, RunOptions& options) {
     adoptParameters(describeMap(*options.stored), options.parameters);
     if (options.map.empty()) options.map = options.continued;
   }
-  validate(allParameters(options));
+  validate(options.parameters.table());
   if (arguments.print_parameters) {
-    printParameters(allParameters(options));
+    printParameters(options.parameters.table());
     return 0;
   }
   check(!options.inputs.empty() && !options.output.empty(), "--input and --output are needed; see --help");
@@ -128,7 +126,7 @@ int main(int argc, char** argv) {
   depth_fusion::RunOptions options;
   addOptions(app, arguments, options);
   return depth_fusion::runApp(app, [&] {
-    parse(app, argc, argv, arguments.recording, depth_fusion::allParameters(options), options.recording);
+    parse(app, argc, argv, arguments.recording, options.parameters.table(), options.recording);
     return run(arguments, options);
   });
 }

@@ -6,7 +6,7 @@
 namespace depth_fusion {
 namespace {
 
-// Of a frame's points that match an older view, for it to be compared.
+// A frame is compared if such a part of its points matches the older view.
 constexpr double kSharedWithOlder = 0.5;
 // A longer interval does not say how fast the sensor was before it.
 constexpr double kSameSpeed_s = 0.11;

@@ -20,7 +20,7 @@ constexpr int kJpegQuality = 90;
 
 std::string rowKey(uint32_t number) { return "keyframe " + std::to_string(number); }
 
-// Of a frame that loops are not sought by.
+// Makes a keyframe that loops are not sought by.
 Keyframe viewOnly(const CameraIntrinsics& camera, const Pose& T_W_D, double stamp_s) {
   Keyframe keyframe;
   keyframe.features.camera = camera;
@@ -121,11 +121,6 @@ uint32_t LoopClosing::adopt(const Corrections& applied) {
   constexpr double kNoMove_m = 1e-6;
   is_moved_ = Corrections(known_).largestMove_m() > kNoMove_m;  // by what came while these were applied
   return ++world_;
-}
-
-uint32_t LoopClosing::world() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return world_;
 }
 
 void LoopClosing::finish() {

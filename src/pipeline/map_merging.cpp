@@ -7,19 +7,6 @@
 #include "pipeline/open_map.h"
 
 namespace depth_fusion {
-namespace {
-
-Keyframes movedBy(const Pose& T_A_B, const Keyframes& keyframes) {
-  Keyframes moved;
-  for (const KeyframePtr& keyframe : keyframes) {
-    auto copy = std::make_shared<Keyframe>(*keyframe);
-    copy->T_W_D = orthonormalized(T_A_B * keyframe->T_W_D);
-    moved.push_back(std::move(copy));
-  }
-  return moved;
-}
-
-}  // namespace
 
 MergedMaps mergeMaps(ComputeContext& compute, const PipelineParameters& parameters, Database& first,
                      Database& second, MapSaver& saver, const std::function<void(double)>& progress) {
@@ -53,7 +40,8 @@ MergedMaps mergeMaps(ComputeContext& compute, const PipelineParameters& paramete
     result.fuse(second_map.seen(*keyframe), T_A_B * keyframe->T_W_D);
     say(++done / steps);
   }
-  for (const KeyframePtr& moved : movedBy(T_A_B, keyframes_B)) keyframes.push_back(moved);
+  for (const KeyframePtr& keyframe : keyframes_B)
+    keyframes.push_back(movedTo(orthonormalized(T_A_B * keyframe->T_W_D), *keyframe));
   StampedPose last_pose = second_map.loaded().description.last_pose;
   last_pose.T_W_D = orthonormalized(T_A_B * last_pose.T_W_D);
   merged.saved = result.save(saver, second_map.loaded().description.camera, last_pose, keyframes);

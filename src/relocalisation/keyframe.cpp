@@ -30,4 +30,10 @@ Keyframe keyframeOf(const FrameFeatures& features, const Pose& T_W_D, double sta
   return keyframe;
 }
 
+KeyframePtr movedTo(const Pose& T_W_D, const Keyframe& keyframe) {
+  auto moved = std::make_shared<Keyframe>(keyframe);
+  moved->T_W_D = T_W_D;
+  return moved;
+}
+
 }  // namespace depth_fusion

@@ -44,7 +44,6 @@ class LoopClosing {
   // The map is where these corrections have it from now on, which are of keyframes(): poses given before
   // count as moved accordingly. Returns what add() is then told as `world`.
   uint32_t adopt(const Corrections& applied);
-  uint32_t world() const;
 
   // Waits until all keyframes are compared.
   void finish();

@@ -21,7 +21,7 @@ class YoungMap {
   // The map is another one, begun by somebody else.
   void forget() { *this = {}; }
 
-  // That were fused; 0 if nobody counted them.
+  // Counts the frames that were fused; 0 if nobody counted them.
   int frames() const { return frames_.value_or(0); }
   bool isGivenUp(const RelocalisationParameters& parameters) const;
   // Why it is given up.

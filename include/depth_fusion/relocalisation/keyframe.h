@@ -45,4 +45,7 @@ Keyframe keyframeOf(const FrameFeatures& features, const Pose& T_W_D, double sta
 using KeyframePtr = std::shared_ptr<const Keyframe>;
 using Keyframes = std::vector<KeyframePtr>;
 
+// The keyframe, at another pose.
+KeyframePtr movedTo(const Pose& T_W_D, const Keyframe& keyframe);
+
 }  // namespace depth_fusion

@@ -43,11 +43,8 @@ LoopResults resultsOf(LoopClosing& loops, const Trajectory& tracked) {
 Keyframes movedTo(const Trajectory& trajectory, const Keyframes& keyframes) {
   Keyframes moved;
   for (const KeyframePtr& keyframe : keyframes) {
-    const std::optional<Pose> T_W_D = poseAt(trajectory, keyframe->stamp_s, 0.0);
-    if (!T_W_D) continue;
-    auto copy = std::make_shared<Keyframe>(*keyframe);
-    copy->T_W_D = *T_W_D;
-    moved.push_back(std::move(copy));
+    if (const std::optional<Pose> T_W_D = poseAt(trajectory, keyframe->stamp_s, 0.0))
+      moved.push_back(movedTo(*T_W_D, *keyframe));
   }
   return moved;
 }

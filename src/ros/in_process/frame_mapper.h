@@ -44,7 +44,7 @@ class FrameMapper {
   const std::shared_ptr<const MapMove>& move() const { return move_; }
   const PipelineParameters& parameters() const { return parameters_; }
   const CameraIntrinsics& camera() const { return camera_; }
-  // Of the last fused frame.
+  // The pose of the last fused frame.
   const StampedPose& lastPose() const { return last_pose_; }
   // What is stored of the map beside its contents.
   MapDescription describe(FusedMap& map) const;

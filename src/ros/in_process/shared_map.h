@@ -98,7 +98,7 @@ class SharedMap {
   Keyframes keyframesOf(uint32_t generation) const;
   void keepKeyframes(uint32_t generation, const Keyframes& keyframes);
 
-  // Those of the map of that generation. Both may be called at any time.
+  // Where loops of the map of that generation are sought. Both may be called at any time.
   LoopsOfMap loopsOf(uint32_t generation) const;
   void setLoops(uint32_t generation, LoopsOfMap loops);
 

@@ -36,7 +36,7 @@ class MapKeeper {
   // The map of that generation goes on as another one, which belongs in map_file as it did. From the thread
   // of queue().
   void follow(uint32_t old_generation, uint32_t generation);
-  // Of a thread of this object's own, in which it works.
+  // This object works in a thread of its own, which calls what stands in this queue.
   ros::CallbackQueue& queue() { return queue_; }
   // Where that path of a service means; empty: map_file. Throws Error for none.
   std::string placeOf(const std::string& path) const;

@@ -36,11 +36,8 @@ LoopStatus statusOf(const LoopCandidate& loop, double stamp_s, const std::string
 
 Keyframes movedBy(const Corrections& corrections, const Keyframes& keyframes) {
   Keyframes moved;
-  for (const KeyframePtr& keyframe : keyframes) {
-    auto copy = std::make_shared<Keyframe>(*keyframe);
-    copy->T_W_D = corrections.corrected({keyframe->stamp_s, keyframe->T_W_D});
-    moved.push_back(std::move(copy));
-  }
+  for (const KeyframePtr& keyframe : keyframes)
+    moved.push_back(movedTo(corrections.corrected({keyframe->stamp_s, keyframe->T_W_D}), *keyframe));
   return moved;
 }
 
@@ -96,7 +93,7 @@ void MapRefiner::follow() {
     const uint32_t generation = fused.map().generation();
     if (generation == std::exchange(generation_, generation)) return;
     loops_.reset();
-    // Of what was loaded there are no keyframes to make it anew from.
+    // A part that was loaded has no keyframes to be made anew from.
     if (parameters_.close_loops && !mapper_.admission().isExternal() && !fused.wasLoaded())
       loops_ = std::make_shared<LoopClosing>(loops_parameters_, LoopsFor::kLiveMap,
                                              fused.map().parameters().color);

@@ -14,7 +14,7 @@
 namespace depth_fusion {
 namespace {
 
-// The same part of a room, seen in passing and once more after the poses have drifted off by 15 cm.
+// A sensor sees a part of a room in passing, and once more after its poses have drifted off by 15 cm.
 class MapRefined : public testing::Test {
  protected:
   MapRefined() {
