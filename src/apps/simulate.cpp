@@ -58,6 +58,14 @@ void addOptions(CLI::App& app, Arguments& arguments) {
          "--turn-rate", simulation.turn_rate_deg_s,
          "rotation in deg/s at the recording's fastest moment, in place of --speed (room, white_room)")
       ->check(CLI::PositiveNumber);
+  RobotOptions& robot = simulation.robot;
+  app.add_flag("--wheels", robot.has_wheels,
+               "the odometry of a robot's wheels, which drifts; kept in a bag only, as is --imu");
+  app.add_option("--wheel-error", robot.wheel_scale_error, "by which part its distances are too long")
+      ->capture_default_str();
+  app.add_option("--slip", robot.slip_m, "how far the wheels slip after three seconds, in metres")
+      ->capture_default_str();
+  app.add_flag("--imu", robot.has_imu, "a gyroscope and an accelerometer with bias and noise, at 200 Hz");
   app.footer(
       "Example: simulate --output room --scene room --frames 300\n"
       "         reconstruct --input room --output out\n"

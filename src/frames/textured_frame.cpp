@@ -5,6 +5,7 @@ namespace depth_fusion {
 std::vector<FrameMotion> TexturedFrame::measuredMotions() const {
   std::vector<FrameMotion> motions;
   if (motion.found) motions.push_back(motion);
+  motions.insert(motions.end(), robot.motions.begin(), robot.motions.end());
   return motions;
 }
 

@@ -15,6 +15,7 @@ Pose mirroredY(const Pose& pose) {
 void makeYDown(RgbdFrame& frame) {
   if (!(frame.intrinsics.fy < 0.0)) return;
   frame.y_mirrored = true;
+  frame.readings = {};  // of a robot that is none in a mirror
   frame.intrinsics.fy = -frame.intrinsics.fy;
   if (frame.color_intrinsics) frame.color_intrinsics->fy = std::abs(frame.color_intrinsics->fy);
   if (frame.T_C_D) frame.T_C_D = mirroredY(*frame.T_C_D);

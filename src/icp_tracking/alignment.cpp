@@ -1,6 +1,7 @@
 #include "icp_tracking/alignment.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -28,21 +29,57 @@ IcpSystem weighed(const IcpSystem& system, double correlated) {
 }  // namespace
 
 IcpTracker::SystemPrior toSystem(const MotionPrior& prior, const Pose& T_M_W) {
-  IcpTracker::SystemPrior result{orthonormalized(T_M_W * prior.T_W_D), std::nullopt};
-  if (!prior.covariance) return result;
+  IcpTracker::SystemPrior result{orthonormalized(T_M_W * prior.T_W_D)};
   const Matrix6d to_system = adjoint(T_M_W);
-  result.information = Matrix6d(to_system * *prior.covariance * to_system.transpose()).inverse();
+  if (prior.covariance) {
+    result.information = Matrix6d(to_system * *prior.covariance * to_system.transpose()).inverse();
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(*result.information, Eigen::EigenvaluesOnly);
+    result.is_complete = solver.eigenvalues()(0) > kMoreThanAGuess * kGuessInformation;
+  }
+  if (prior.measured_pose) {
+    const Matrix6d to_world = adjoint(T_M_W.inverse());
+    result.measured_pose = PoseMeasurement{to_world.transpose() * prior.measured_pose->information * to_world,
+                                           to_system * prior.measured_pose->error};
+  }
   return result;
+}
+
+bool IcpTracker::SystemPrior::measures(const Vector6d& twist) const {
+  double said = 0.0;
+  if (information) said += twist.dot(*information * twist);
+  if (measured_pose) said += twist.dot(measured_pose->information * twist);
+  return said > kMoreThanAGuess * kGuessInformation * twist.squaredNorm();
+}
+
+int guessedDirections(const DegeneracyAnalysis& analysis, const IcpTracker::SystemPrior& prior) {
+  const int free = analysis.freeDirections();
+  if (free == 0 || prior.is_complete) return 0;
+  if (!prior.information && !prior.measured_pose) return free;
+  Matrix6d information = prior.information.value_or(Matrix6d::Zero());
+  if (prior.measured_pose) information += prior.measured_pose->information;
+  const Eigen::MatrixXd twists = analysis.freeTwists();
+  const Eigen::MatrixXd said = twists.transpose() * information * twists;
+  const Eigen::MatrixXd guessed = kGuessInformation * twists.transpose() * twists;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(said, guessed,
+                                                                         Eigen::EigenvaluesOnly);
+  return static_cast<int>((solver.eigenvalues().array() < kMoreThanAGuess).count());
 }
 
 IcpSolution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const IcpTracker::SystemPrior& prior,
                   double correlated) {
   const IcpSystem system = weighed(analysis.constrained(), correlated);
   const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
-  if (!prior.information)
+  if (!prior.information && !prior.measured_pose)
     return {analysis.solve(deviation), (system.hessian + kGuessInformation * Matrix6d::Identity()).inverse()};
-  const Matrix6d information = system.hessian + *prior.information;
-  const Vector6d gradient = system.gradient + *prior.information * deviation;
+  // What nothing measures stays about where it was expected.
+  const Matrix6d guess = kGuessInformation * Matrix6d::Identity();
+  const Matrix6d motion = prior.information.value_or(guess);
+  Matrix6d information = system.hessian + motion;
+  Vector6d gradient = system.gradient + motion * deviation;
+  if (prior.measured_pose) {
+    information += prior.measured_pose->information;
+    gradient += prior.measured_pose->information * (deviation + prior.measured_pose->error);
+  }
   return {information.ldlt().solve(-gradient), information.inverse()};
 }
 
@@ -83,7 +120,7 @@ std::string lostReason(const IcpTracker::Alignment& alignment, const IcpTracker:
   } else if (T_prior_D.translation().norm() > parameters.max_translation_m ||
              rotationAngle(T_prior_D) > parameters.max_rotation_rad) {
     reason << "jump of " << T_prior_D.translation().norm() << " m, " << rotationAngle(T_prior_D) << " rad";
-  } else if (alignment.free > kMostFree && !prior.information) {
+  } else if (alignment.guessed > kMostFree) {
     reason << "the geometry seen leaves free " << alignment.free_directions << ", and nothing else helps";
   }
   return reason.str();

@@ -12,7 +12,12 @@ namespace depth_fusion {
 // A prior in the frame of the system, M.
 struct IcpTracker::SystemPrior {
   Pose T_M_D;
-  std::optional<Matrix6d> information;
+  std::optional<Matrix6d> information = {};
+  std::optional<PoseMeasurement> measured_pose = {};
+  bool is_complete = false;  // it measures the motion in all directions
+
+  // Whether it says more of the motion along the twist than a guess does.
+  bool measures(const Vector6d& twist) const;
 };
 
 // The state that the iterations have come to.
@@ -23,6 +28,7 @@ struct IcpTracker::Alignment {
   double prior_sigmas = 0.0;    // how far geometry alone is from the prior
   std::string free_directions;  // those that geometry says weakly among them
   int free = 0;                 // directions that geometry does not even say weakly
+  int guessed = 0;              // of these, those that the prior does not measure, either
   double smallest_eigenvalue = 0.0;
   Vector6d weakest = Vector6d::Zero();  // twist of the smallest eigenvalue
   std::string weakest_name;
@@ -31,6 +37,9 @@ struct IcpTracker::Alignment {
 
 // What is guessed may be off by a third of a metre, or of a radian.
 constexpr double kGuessInformation = 9.0;
+
+// How much more than a guess a measurement says.
+constexpr double kMoreThanAGuess = 2.0;
 
 IcpTracker::SystemPrior toSystem(const MotionPrior& prior, const Pose& T_M_W);
 
@@ -43,6 +52,8 @@ struct IcpSolution {
 // count as one.
 IcpSolution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const IcpTracker::SystemPrior& prior,
                   double correlated);
+// How many of the free directions the prior does not measure.
+int guessedDirections(const DegeneracyAnalysis& analysis, const IcpTracker::SystemPrior& prior);
 // How far the solution of geometry alone is from the prior (TrackingResult::prior_sigmas), from the pose that
 // balances both: the distances of that from either add up.
 double distanceFromPrior(const DegeneracyAnalysis& analysis, const Pose& T_M_D,

@@ -51,7 +51,7 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
                             const SystemPrior& prior, const Eigen::AlignedBox3d& box, Alignment& alignment) {
   // What geometry says weakly is worth more than no measurement. The structure tells what is free where
   // matches are right; where they are not yet, it is smaller.
-  const double threshold = parameters_.degeneracy_threshold * (prior.information ? 1.0 : kWeakly);
+  const double threshold = parameters_.degeneracy_threshold * (prior.is_complete ? 1.0 : kWeakly);
   const int iterations[] = {parameters_.fine_iterations, parameters_.middle_iterations,
                             parameters_.coarse_iterations};
   const MatchGates gates = gatesAt(level);
@@ -71,6 +71,7 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
                            step.tail<3>().norm() < coarseness * parameters_.convergence_m;
     if (!converged && i + 1 < iterations[level]) continue;
     alignment.free = analysis.freeDirections();
+    alignment.guessed = guessedDirections(analysis, prior);
     alignment.free_directions = analysis.namesUpTo(parameters_.degeneracy_threshold);
     alignment.smallest_eigenvalue = analysis.smallestEigenvalue();
     alignment.weakest = analysis.weakestTwist();
@@ -93,7 +94,7 @@ Pose IcpTracker::bestStart(const DepthFrame& frame, const ModelView& view, const
   for (const Pose& T_W_D : starts) {
     Alignment alignment;
     alignment.T_M_D = orthonormalized(T_M_W * T_W_D);
-    alignLevel(coarsest, frame, view, {alignment.T_M_D, std::nullopt}, box, alignment);
+    alignLevel(coarsest, frame, view, {alignment.T_M_D}, box, alignment);
     if (alignment.system.fit <= most_explained) continue;
     most_explained = alignment.system.fit;
     best = orthonormalized(view.T_W_D * alignment.T_M_D);
@@ -129,10 +130,11 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
   result.reason = lostReason(alignment, system_prior, parameters_);
   const bool is_found = result.reason.empty();
   if (is_found) {
-    result.guessed_directions = prior.covariance ? 0 : alignment.free;
+    result.guessed_directions = alignment.guessed;
     result.reason = alignment.free_directions;
   }
-  const bool may_slide = parameters_.degeneracy_threshold > 0.0f && !prior.covariance && alignment.free == 0;
+  const bool may_slide = parameters_.degeneracy_threshold > 0.0f && alignment.free == 0 &&
+                         !system_prior.is_complete && !system_prior.measures(alignment.weakest);
   if (is_found && may_slide) result.weakest_said = weakestSaid(alignment, frame);
   if (result.weakest_said < kSaid) {
     result.guessed_directions = 1;

@@ -67,12 +67,12 @@ TrackingResult lostIfGuessed(TrackingResult result) {
 TrackingResult HypothesisTracker::track(const DepthFrame& frame, const ModelView& view,
                                         const MotionPrior& prior, const std::vector<MotionPrior>& others,
                                         StageTimers& timers) {
-  TrackingResult best = tracker_.track(frame, view, prior, timers);
+  TrackingResult best = align(frame, view, prior, timers);
   if (isConvincing(best)) return best;
   const TrackingResult first = best;
   for (const MotionPrior& other : others) {
     if (saysTheSame(other, prior)) continue;
-    TrackingResult result = tracker_.track(frame, view, other, timers);
+    TrackingResult result = align(frame, view, other, timers);
     if (explainsMore(result, best)) best = std::move(result);
   }
   if (!fitsAsUsual(best) || best.explained < explainedBy(kWellExplained, kHardlyExplained)) {
@@ -89,16 +89,22 @@ TrackingResult HypothesisTracker::track(const DepthFrame& frame, const ModelView
   return is_unexplained && !isConfirmed(best, prior) ? lost(std::move(best)) : orLost(std::move(best));
 }
 
+TrackingResult HypothesisTracker::align(const DepthFrame& frame, const ModelView& view, MotionPrior prior,
+                                        StageTimers& timers) {
+  if (!attitude_.empty()) attitude_.addTo(prior);
+  return tracker_.track(frame, view, prior, timers);
+}
+
 TrackingResult HypothesisTracker::search(const DepthFrame& frame, const ModelView& view,
                                          const MotionPrior& start, StageTimers& timers) {
   const Pose T_W_D = tracker_.bestStart(frame, view, around(start.T_W_D), timers);
-  return orLost(lostIfGuessed(tracker_.track(frame, view, {T_W_D, std::nullopt, "search"}, timers)));
+  return orLost(lostIfGuessed(align(frame, view, {T_W_D, std::nullopt, "search"}, timers)));
 }
 
 TrackingResult HypothesisTracker::compare(const DepthFrame& frame, const ModelView& view, const Pose& T_W_D,
                                           StageTimers& timers) {
   const MotionPrior start{T_W_D, std::nullopt, "comparison"};
-  const TrackingResult near = tracker_.track(frame, view, start, timers);
+  const TrackingResult near = align(frame, view, start, timers);
   const bool fits = !isLost(near) && near.explained >= kHardlyExplained * usual_.explained;
   return fits ? near : search(frame, view, start, timers);
 }

@@ -41,18 +41,20 @@ TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const Frame
     if (result.status != TrackingStatus::kLost) return result;
   }
   if (motion_.isTracking()) return lost;
-  if (guessed_.isAnywhere()) return lostWithout(guessed_);
+  const std::optional<MotionPrior> bridged = motion_.bridged();
+  if (guessed_.isAnywhere() && !bridged) return lostWithout(guessed_);
   TrackingResult result = trackFrom(prior, timers);
   std::vector<MotionPrior> starts = motion_.otherStarts();
   const auto is_the_prior = [&](const MotionPrior& start) { return saysTheSame(start, prior); };
   if (std::none_of(starts.begin(), starts.end(), is_the_prior)) starts.push_back(prior);
   for (size_t i = 0; i < starts.size() && result.status == TrackingStatus::kLost; ++i)
     result = searchAbout(starts[i], timers);
-  return result.status == TrackingStatus::kLost ? searchFarther(starts.front().T_W_D, timers) : result;
+  if (result.status != TrackingStatus::kLost) return result;
+  const std::vector<Pose> poses = bridged ? aboutBridged(*bridged) : aboutLastSeen(starts.front().T_W_D);
+  return poses.empty() ? result : searchFarther(poses, timers);
 }
 
-TrackingResult TrackingSession::searchFarther(const Pose& T_W_last, StageTimers& timers) {
-  const std::vector<Pose> poses = aboutLastSeen(T_W_last);
+TrackingResult TrackingSession::searchFarther(const std::vector<Pose>& poses, StageTimers& timers) {
   TrackingResult result;
   for (int i = 0; i < kPlacesInAFrame && result.status == TrackingStatus::kLost; ++i)
     result = searchAbout({poses[next_search_++ % poses.size()], std::nullopt, "search"}, timers);

@@ -13,11 +13,12 @@ ReconstructionPipeline::ReconstructionPipeline(ComputeContext& compute, const Pi
       map_(compute, parameters.map),
       submaps_(map_, parameters.submaps),
       odometry_(parameters.texture_odometry, parameters.depth_sensor),
+      robot_(parameters.robot_motion),
       mapper_(compute, map_, submaps_, parameters, camera),
       tracking_queue_(compute.anotherQueue()),
       session_(*tracking_queue_, parameters, camera,
                [this](const Pose& T_W_D) -> const ModelView& { return mapper_.render(T_W_D, timers_); }),
-      ahead_(odometry_, session_) {
+      ahead_(odometry_, robot_, session_) {
   parameters_.map = map_.parameters();
 }
 
@@ -27,7 +28,9 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   TexturedFrame texture = ahead_.textureOf(frame, timers_);
   ahead_.announce(next);
   if (session_.givesUpMap()) beginAnew();
-  result.tracking = session_.step(frame, std::move(texture), view_, timers_);
+  const Pose start = startPose(texture.robot.attitude);
+  result.tracking = session_.step(frame, std::move(texture), view_, timers_, start);
+  if (result.tracking.status != TrackingStatus::kLost) robot_.learn(frame.stamp_s, result.tracking.T_W_D);
   ahead_.prepare();
   fuseAndRender(frame, result);
   ahead_.wait();

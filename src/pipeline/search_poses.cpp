@@ -1,5 +1,8 @@
 #include "pipeline/search_poses.h"
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
 namespace depth_fusion {
 
 std::vector<Pose> aboutGiven(const Pose& T_W_D) {
@@ -31,6 +34,25 @@ std::vector<Pose> aboutLastSeen(const Pose& T_W_D) {
   for (const double sign : {-1.0, 1.0}) {
     for (int axis = 0; axis < 6; ++axis) add(axis, sign * (axis < 3 ? kTurn_rad : kMove_m));
     for (const int axis : {0, 1}) add(axis, 2.0 * sign * kTurn_rad);
+  }
+  return poses;
+}
+
+std::vector<Pose> aboutBridged(const MotionPrior& prior) {
+  constexpr double kReach_m = 0.1, kReach_rad = 0.1;  // of a search
+  constexpr double kFarthest = 2.0;                   // standard deviations
+  const Matrix6d to_sensor = adjoint(prior.T_W_D.inverse());
+  const Matrix6d covariance = to_sensor * *prior.covariance * to_sensor.transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(covariance);
+  std::vector<Pose> poses;
+  for (int axis = 5; axis >= 0; --axis) {
+    const Vector6d sigma = std::sqrt(std::max(axes.eigenvalues()(axis), 0.0)) * axes.eigenvectors().col(axis);
+    const double reach =
+        std::min(kReach_rad / sigma.head<3>().norm(), kReach_m / sigma.tail<3>().norm());  // in sigmas
+    for (double steps = reach; std::isfinite(reach) && steps < kFarthest; steps += 2.0 * reach) {
+      for (const double sign : {-1.0, 1.0})
+        poses.push_back(prior.T_W_D * poseFromTwist(sign * (steps + reach) * sigma));
+    }
   }
   return poses;
 }

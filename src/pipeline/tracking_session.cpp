@@ -22,6 +22,13 @@ bool bendsFrames(const PreprocessingParameters& parameters) {
   return parameters.readout_s != 0.0f || parameters.stamp_delay_s != 0.0f;
 }
 
+// The sensor has moved so far since the view that another one is needed, as after a gap in the frames.
+bool isFarFrom(const Pose& T_W_view, const MotionPrior& prior) {
+  constexpr double kFar_m = 0.4, kFar_rad = 0.4;
+  const Pose motion = T_W_view.inverse() * prior.T_W_D;
+  return prior.covariance && (motion.translation().norm() > kFar_m || rotationAngle(motion) > kFar_rad);
+}
+
 std::string guessedTooLong(const GuessedMotion& motion) {
   char reason[200];
   std::snprintf(
@@ -59,9 +66,12 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
   if (view == nullptr) begun_blindly_s_.reset();
   if (view == nullptr && !ahead_->knows_motion) begun_blindly_s_ = frame.stamp_s;
   const MotionPrior predicted = takePrepared(frame);
+  takeAttitude(texture.robot.attitude);
   TrackingResult result = view == nullptr ? begin(frame, begins_anew_for_.empty() ? start : predicted.T_W_D)
                                           : track(frame, predicted, texture.features, *view, timers);
+  comparePriors(result);
   if (result.status != TrackingStatus::kLost) {
+    learnLevel(texture.robot.attitude, result.T_W_D);
     take(frame.stamp_s, std::move(texture.features), result);
   } else {
     motion_.lose();
@@ -72,6 +82,7 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
   }
   if (found_ && view != nullptr) compareWithOlder(frame.stamp_s, result.T_W_D, view, timers);
   result.map_doubt = watch_.doubt();
+  if (result.status == TrackingStatus::kLost) result.bridged = motion_.bridged();
   return result;
 }
 
@@ -160,6 +171,8 @@ void TrackingSession::reset(const Pose& T_W_D, Keyframes keyframes) {
   watch_.reset();
   older_.forget();
   begins_anew_for_.clear();
+  is_level_.reset();
+  floor_z_m_.reset();
 }
 
 void TrackingSession::searchAt(const Pose& T_W_D) {
@@ -177,6 +190,8 @@ void TrackingSession::beginAnew() {
   guessed_ = {};
   watch_.reset();
   older_.forget();
+  is_level_.reset();
+  floor_z_m_.reset();
 }
 
 TrackingResult TrackingSession::begin(const RgbdFrame& frame, const Pose& T_W_D) const {
@@ -202,7 +217,9 @@ TrackingResult TrackingSession::track(const RgbdFrame& frame, const MotionPrior&
                                       StageTimers& timers) {
   TrackingResult result;
   if (motion_.isTracking()) {
-    result = tracker_.track(*depth_, view, prior, motion_.otherStarts(), timers);
+    result = isFarFrom(view.T_W_D, prior)
+                 ? tracker_.track(*depth_, render_(prior.T_W_D), prior, {prior}, timers)
+                 : tracker_.track(*depth_, view, prior, motion_.otherStarts(), timers);
     const bool is_misled = result.status == TrackingStatus::kLost || !result.dropped_prior.empty();
     if (is_misled && prior.covariance && bendsFrames(parameters_.preprocessing))
       result = trackUnbent(frame, prior, result, view, timers);

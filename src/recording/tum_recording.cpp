@@ -1,7 +1,9 @@
 // Recordings in the layout of the TUM RGB-D benchmark.
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "common/io/image_file.h"
 #include "depth_fusion/common/error.h"
@@ -79,10 +81,28 @@ TumFiles readLists(const std::string& folder) {
   return files;
 }
 
+// A Kinect's accelerometer has x to the left, y up and z forward.
+std::vector<ImuReading> readAccelerometer(const std::string& folder) {
+  std::vector<ImuReading> readings;
+  std::ifstream file(folder + "/accelerometer.txt");
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    ImuReading reading;
+    Eigen::Vector3d force;
+    if (!(words >> reading.stamp_s >> force.x() >> force.y() >> force.z())) continue;
+    reading.specific_force_D = Eigen::Vector3d(-force.x(), -force.y(), force.z());
+    readings.push_back(reading);
+  }
+  return readings;
+}
+
 class TumRecording : public Recording {
  public:
   TumRecording(const std::string& folder, const RecordingOptions& options)
-      : folder_(folder), max_pairing_gap_s_(options.max_pairing_gap_s), files_(readLists(folder)) {
+      : folder_(folder),
+        max_pairing_gap_s_(options.max_pairing_gap_s),
+        files_(readLists(folder)),
+        accelerometer_(readAccelerometer(folder)) {
     const std::string camera_path = folder + "/camera.yaml";
     const cv::Size depth_size = depthSize();
     std::optional<RecordingIntrinsics> own;
@@ -107,6 +127,9 @@ class TumRecording : public Recording {
     frame.depth_unit_m = depth_unit_m_;
     frame.intrinsics = intrinsics_.camera;
     frame.distortion = frame.color_distortion = distortion_;
+    for (; next_reading_ < accelerometer_.size() && accelerometer_[next_reading_].stamp_s <= frame.stamp_s;
+         ++next_reading_)
+      frame.readings.imu.push_back(accelerometer_[next_reading_]);
     checkDepthSize(frame.depth, frame.intrinsics, depth_file.path);
     const TimedFile* color_file = colorOf(index);
     if (color_file == nullptr) {
@@ -125,7 +148,8 @@ class TumRecording : public Recording {
     const std::string color = files_.color.empty() ? "no colour (no rgb.txt)"
                                                    : std::to_string(files_.color.size()) + " colour images";
     return "TUM layout, " + folder_ + ": " + std::to_string(files_.depth.size()) + " depth images, " + color +
-           ", intrinsics " + describe(intrinsics_) + files_.remark;
+           ", intrinsics " + describe(intrinsics_) +
+           (accelerometer_.empty() ? "" : ", gravity from accelerometer.txt") + files_.remark;
   }
 
  private:
@@ -154,6 +178,8 @@ class TumRecording : public Recording {
   LensDistortion distortion_;
   UnpairedColor unpaired_;
   size_t next_index_ = 0;
+  std::vector<ImuReading> accelerometer_;
+  size_t next_reading_ = 0;
 };
 
 }  // namespace

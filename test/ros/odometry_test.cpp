@@ -4,6 +4,8 @@
 #include <tf2_ros/transform_broadcaster.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <algorithm>
+
 #include "support/diagnostics.h"
 #include "support/live_graph.h"
 
@@ -93,6 +95,36 @@ TEST_F(OdometryOnTf, ThatIsLateOrSlowCostsNoFrame) {
   // What the tracker corrects is the error of odometry, which has none here.
   expectPose(fromMessage(buffer_.lookupTransform(frame("map"), frame("odom"), ros::Time(0)).transform),
              Pose::Identity());
+}
+
+TEST_F(OdometryOnTf, IsAPriorAndCarriesThePoseOnWhileTheCameraSeesNothing) {
+  startWithOdometry();
+  constexpr size_t kBlind = 8, kSeesAgain = 12;
+  for (size_t i = 0; i < kBlind; ++i) {
+    sendOdometry(i);
+    expectFused(i);
+  }
+  const std::vector<std::string> priors = tracker_status_.awaitStamp(stamp(kBlind - 1))->priors;
+  EXPECT_EQ(std::count(priors.begin(), priors.end(), "odometry"), 1);
+  double before_m2 = 0.0;
+  for (size_t i = kBlind; i < kSeesAgain; ++i) {
+    RgbdFrame nothing = frames_[i];
+    nothing.depth = cv::Mat::zeros(nothing.depth.size(), nothing.depth.type());
+    sendOdometry(i);
+    robot_camera_.publish(nothing);
+    const auto status = tracker_status_.awaitStamp(stamp(i));
+    ASSERT_NE(status, nullptr) << i;
+    EXPECT_EQ(status->state, TrackerStatus::PREDICTED) << status->reason;
+    EXPECT_NE(status->reason.find("the pose goes on by odometry"), std::string::npos) << status->reason;
+    const auto pose = poses_.awaitStamp(stamp(i));
+    ASSERT_NE(pose, nullptr) << i;
+    expectPose(fromMessage(pose->pose.pose),
+               T_base_camera_ * frames_.front().T_W_D->inverse() * *frames_[i].T_W_D, 0.05, 0.05);
+    EXPECT_GT(pose->pose.covariance[0], before_m2);
+    before_m2 = pose->pose.covariance[0];
+  }
+  sendOdometry(kSeesAgain);
+  expectFused(kSeesAgain);
 }
 
 TEST_F(OdometryOnTf, ThatIsDeadIsNamedAndCostsNoFrame) {

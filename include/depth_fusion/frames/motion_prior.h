@@ -8,12 +8,19 @@
 
 namespace depth_fusion {
 
+// What is measured of a pose, whatever the motion.
+struct PoseMeasurement {
+  Matrix6d information = Matrix6d::Zero();  // of the twist (rotation, translation) applied to it on the left
+  Vector6d error = Vector6d::Zero();        // the twist from the pose that is measured to the prior's
+};
+
 struct MotionPrior {
   Pose T_W_D = Pose::Identity();
   // The covariance is that of the twist (rotation, translation) applied to T_W_D on the left; a guess without
   // a measurement has none.
   std::optional<Matrix6d> covariance;
-  std::string origin;  // what says so: "texture", "last pose", "constant velocity", "search", "start"
+  std::string origin;  // what says so: "texture", "odometry", "gyroscope", several of them, "last pose", ...
+  std::optional<PoseMeasurement> measured_pose = {};
 };
 
 // Tracking from either comes to the same.
@@ -31,5 +38,8 @@ struct FrameMotion {
   // The current frame's pose, if the previous one's is known exactly.
   MotionPrior priorFrom(const Pose& T_W_previous) const;
 };
+
+// The motion that both measure; none if they contradict each other.
+std::optional<FrameMotion> combined(const FrameMotion& a, const FrameMotion& b);
 
 }  // namespace depth_fusion

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "depth_fusion/frames/motion_readings.h"
 #include "depth_fusion/geometry/camera_intrinsics.h"
 #include "depth_fusion/geometry/lens_distortion.h"
 #include "depth_fusion/geometry/pose.h"
@@ -27,6 +28,7 @@ struct RgbdFrame {
   std::optional<Pose> T_C_D;  // unset: depth is registered to colour
   LensDistortion distortion, color_distortion;  // of the images; FrameRegistration takes it out
   std::optional<Pose> T_W_D;  // reference pose, where the recording has one for this very frame
+  MotionReadings readings;    // of other sensors, since the frame before
   bool y_mirrored = false;    // y was up (see y_down.h): reference poses from elsewhere must be mirrored, too
 };
 

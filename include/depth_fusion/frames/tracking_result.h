@@ -1,9 +1,11 @@
 // Where tracking found a frame's camera, and how sure that is.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "depth_fusion/geometry/pose.h"
+#include "depth_fusion/frames/motion_prior.h"
 
 namespace depth_fusion {
 
@@ -12,6 +14,12 @@ enum class TrackingStatus {
   kDegenerate,  // geometry leaves directions free, or says them weakly; the pose has them from a measured
                 // prior, or they are guessed
   kLost
+};
+
+// How far the pose is from a motion that was measured, in standard deviations of both.
+struct PriorDistance {
+  std::string origin;
+  double sigmas = 0.0;
 };
 
 struct TrackingResult {
@@ -25,6 +33,10 @@ struct TrackingResult {
   // of the number of directions that depth constrains); 0 for a prior without a covariance.
   double prior_sigmas = 0.0;
   std::string dropped_prior;  // the origin of a measured prior that depth contradicts; prior_sigmas is its
+  std::vector<PriorDistance> priors;  // every motion that was measured, also those that were not used
+  // Of a lost frame: where the sensor is by what else measures its motion, without a gap since it was
+  // tracked.
+  std::optional<MotionPrior> bridged;
   // The number of free directions that nothing measured: along them the pose is where it was expected.
   int guessed_directions = 0;
   std::string map_doubt;  // why the map may be wrong, and since when; empty if nothing speaks for it

@@ -5,16 +5,18 @@
 #include <optional>
 
 #include "depth_fusion/pipeline/tracking_session.h"
+#include "depth_fusion/robot_motion/robot_motion.h"
 
 namespace depth_fusion {
 
-// The one who announces a frame has to bring it next. Keeps references to odometry and session.
+// The one who announces a frame has to bring it next. Keeps references to odometry, robot and session.
 class FrameAhead {
  public:
-  FrameAhead(TextureOdometry& odometry, TrackingSession& session) : odometry_(odometry), session_(session) {}
+  FrameAhead(TextureOdometry& odometry, RobotMotion& robot, TrackingSession& session)
+      : odometry_(odometry), robot_(robot), session_(session) {}
 
-  // The texture of the frame, found now or, if the frame was announced, ahead. Throws Error if another frame
-  // was announced, which may then still be brought.
+  // The texture of the frame, found now or, if the frame was announced, ahead, and what the robot knows of
+  // it. Throws Error if another frame was announced, which may then still be brought.
   TexturedFrame textureOf(const RgbdFrame& frame, StageTimers& timers);
   // Announces the next frame and begins its texture odometry; null announces nothing.
   void announce(const RgbdFrame* next);
@@ -26,11 +28,16 @@ class FrameAhead {
   void checkNoneAnnounced() const;
 
  private:
+  // What the robot knows of the frame, asked once.
+  const RobotKnowledge& knowledgeOf(const RgbdFrame& frame);
+
   TextureOdometry& odometry_;
+  RobotMotion& robot_;
   TrackingSession& session_;
   std::optional<RgbdFrame> announced_;
-  StageTimers timers_;                  // of what is done ahead
-  std::future<TexturedFrame> texture_;  // of the announced frame; last: its task uses the others
+  std::optional<RobotKnowledge> known_;  // of the announced frame
+  StageTimers timers_;                   // of what is done ahead
+  std::future<TexturedFrame> texture_;   // of the announced frame; last: its task uses the others
 };
 
 }  // namespace depth_fusion

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "depth_fusion/frames/known_attitude.h"
 #include "depth_fusion/icp_tracking/icp_tracker.h"
 
 namespace depth_fusion {
@@ -17,6 +18,9 @@ class HypothesisTracker {
       : tracker_(compute, parameters, camera) {}
 
   void setParameters(const IcpTrackingParameters& parameters) { tracker_.setParameters(parameters); }
+
+  // What is known of the pose of the frames to come, whatever they are tracked from.
+  void setAttitude(const KnownAttitude& attitude) { attitude_ = attitude; }
 
   // Tracks the frame from the prior. Where the view then explains less of the frame than of those before, or
   // where depth contradicts the prior, it tracks from the other starts, too, and at last from all around
@@ -47,6 +51,9 @@ class HypothesisTracker {
     double explained = 0.0, match_quality = 0.0;
   };
 
+  // Tracks the frame from the prior and what is known of its attitude.
+  TrackingResult align(const DepthFrame& frame, const ModelView& view, MotionPrior prior,
+                       StageTimers& timers);
   // How much of a frame is to be explained: a share of what is usual, or, by a map of few frames, so much.
   double explainedBy(double few_frames, double of_usual) const;
   // Nothing speaks for looking elsewhere.
@@ -61,6 +68,7 @@ class HypothesisTracker {
   TrackingResult lost(TrackingResult result) const;
 
   IcpTracker tracker_;
+  KnownAttitude attitude_;
   Usual usual_;
 };
 

@@ -10,6 +10,7 @@
 #include "depth_fusion/preprocessing/preprocessing_parameters.h"
 #include "depth_fusion/registration/registration_parameters.h"
 #include "depth_fusion/relocalisation/relocalisation_parameters.h"
+#include "depth_fusion/robot_motion/robot_motion_parameters.h"
 #include "depth_fusion/submaps/submap_parameters.h"
 #include "depth_fusion/surface_mesh/surface_mesh_parameters.h"
 #include "depth_fusion/texture_odometry/texture_odometry_parameters.h"
@@ -26,6 +27,7 @@ struct PipelineParameters {
   TextureOdometryParameters texture_odometry;
   IcpTrackingParameters icp_tracking;
   RelocalisationParameters relocalisation;
+  RobotMotionParameters robot_motion;
   LoopParameters loops;
   TsdfFusionParameters tsdf_fusion;
   ColorFusionParameters color_fusion;

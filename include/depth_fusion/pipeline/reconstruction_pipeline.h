@@ -17,8 +17,8 @@ struct FrameResult {
   ColorFusionResult color;
 };
 
-// Tracks and fuses frame by frame. W is the first fused frame's camera frame, or that of the given
-// poses.
+// Tracks and fuses frame by frame. W is the first fused frame's camera frame, or that of the given poses.
+// Where gravity is known, W's z is up, and where a ground robot's base is, it begins there.
 class ReconstructionPipeline {
  public:
   ReconstructionPipeline(ComputeContext& compute, const PipelineParameters& parameters,
@@ -47,6 +47,9 @@ class ReconstructionPipeline {
   // Saves the map as it is now. Throws Error if it cannot be written.
   SaveReport save(MapSaver& saver);
 
+  // What is wrong with the robot's other sensors; empty if nothing is.
+  std::string robotProblem() const { return robot_.problem(); }
+
   // The part of the map that is in the pool.
   BlockMap& map() { return map_; }
   SubmapCollection& submaps() { return submaps_; }
@@ -73,6 +76,7 @@ class ReconstructionPipeline {
   BlockMap map_;
   SubmapCollection submaps_;
   TextureOdometry odometry_;
+  RobotMotion robot_;
   Mapper mapper_;
   std::unique_ptr<ComputeContext> tracking_queue_;
   TrackingSession session_;

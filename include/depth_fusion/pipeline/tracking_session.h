@@ -78,6 +78,12 @@ class TrackingSession {
     std::shared_ptr<const DepthFrame> depth;
     bool knows_motion;  // something said how fast the sensor was while it was taken
   };
+  // Takes what is known of the attitude, as far as the map is level.
+  void takeAttitude(const KnownAttitude& attitude);
+  // The frame was found: it says whether the map is level, and where a ground robot's floor is.
+  void learnLevel(const KnownAttitude& attitude, const Pose& T_W_D);
+  // Says of a lost frame where the sensor is meanwhile, and of another how far the priors are.
+  void comparePriors(TrackingResult& result) const;
   // A frame with a pose that is not concluded.
   struct FoundFrame {
     double stamp_s;
@@ -106,8 +112,8 @@ class TrackingSession {
   // sensor is. Returns `lost` if nothing fits.
   TrackingResult relocalise(const MotionPrior& prior, const FrameFeatures& features,
                             const TrackingResult& lost, StageTimers& timers);
-  // Searches for the sensor farther about its last pose, in another few places in each frame.
-  TrackingResult searchFarther(const Pose& T_W_last, StageTimers& timers);
+  // Searches for the sensor in these places, another few of them in each frame.
+  TrackingResult searchFarther(const std::vector<Pose>& poses, StageTimers& timers);
   // Searches for the sensor about the pose that was given, for some frames.
   TrackingResult searchAtGiven(StageTimers& timers);
   TrackingResult searchAbout(const MotionPrior& start, StageTimers& timers);
@@ -126,6 +132,8 @@ class TrackingSession {
   Relocaliser relocaliser_;
   TextureOdometry matcher_;  // of frames to keyframes
   MotionModel motion_;
+  std::optional<bool> is_level_;     // the map's z is along gravity; unknown until a frame is found in it
+  std::optional<double> floor_z_m_;  // of a ground robot's base
   GuessedMotion guessed_;
   YoungMap young_map_;
   MapWatch watch_;
@@ -134,7 +142,7 @@ class TrackingSession {
   std::string begins_anew_for_;            // why the next map is one that begins anew; else empty
   std::shared_ptr<const DepthFrame> depth_;
   std::optional<FoundFrame> found_;
-  size_t next_search_ = 0;  // of the places farther about the last pose
+  size_t next_search_ = 0;  // of the places farther away
   std::optional<PreparedFrame> ahead_;
   // Where somebody says that the sensor is, until it is found.
   struct GivenPose {

@@ -85,6 +85,7 @@ int Run::execute() {
     log_.complain(std::string(error.what()) + "; written is what was fused before");
   }
   check(pipeline_ != nullptr, log_.input() + ": no frame could be read");
+  if (const std::string problem = pipeline_->robotProblem(); !problem.empty()) log_.warn(problem);
   log_.conclude();
   if (pipeline_->loops() != nullptr && !interrupted) applyLoops();
   writeResults(options_, compute_, *pipeline_, saver_.get(), log_);

@@ -10,6 +10,7 @@
 #include "recording/unpaired_color.h"
 #include "ros/bags/bag_clock.h"
 #include "ros/bags/bag_images.h"
+#include "ros/bags/bag_robot.h"
 #include "ros/bags/bag_sources.h"
 #include "ros/bags/open_recording.h"
 
@@ -27,6 +28,7 @@ class BagRecording : public Recording {
         most_wait_s_(kMostLatency_s + options.max_pairing_gap_s),
         bags_(paths),
         sources_(findSources(bags_, options)),
+        robot_(bags_, sources_.depth_frame),
         clock_(sources_.stamp_lead_s) {
     bags_.addTo(view_, {sources_.depth_topic});
     depth_count_ = view_.size();
@@ -53,7 +55,7 @@ class BagRecording : public Recording {
     const std::string color = sources_.color_topic.empty() ? "none" : sources_.color_topic;
     return "bag " + bags_.name() + ": " + std::to_string(depth_count_) + " depth images of " +
            sources_.depth_topic + ", colour " + color + ", intrinsics " + describe(sources_.intrinsics) +
-           sources_.remark;
+           (robot_.description().empty() ? "" : ", " + robot_.description()) + sources_.remark;
   }
 
  private:
@@ -107,6 +109,7 @@ class BagRecording : public Recording {
     frame.color_distortion = sources_.color_distortion;
     frame.T_C_D = sources_.T_C_D;
     checkDepthSize(frame.depth, frame.intrinsics, depth_image.name);
+    if (frame.stamp_problem.empty()) frame.readings = robot_.until(frame.stamp_s);
     return frame;
   }
 
@@ -138,6 +141,7 @@ class BagRecording : public Recording {
   double most_wait_s_;
   BagFiles bags_;
   BagSources sources_;
+  BagRobot robot_;
   BagClock clock_;
   rosbag::View view_;
   rosbag::View::iterator place_;

@@ -36,6 +36,7 @@ class SourceFinder {
     sources_.depth_topic = depthTopic();
     const ImageSample depth = sampleDepth(bags_, sources_.depth_topic);
     sources_.stamp_lead_s = depth.lead_s;
+    sources_.depth_frame = depth.frame_id;
     sources_.depth_unit_m = viewerDepthUnit(bags_, sources_.depth_topic);
     noteUnit(depth);
     notePublishers();

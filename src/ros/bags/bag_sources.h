@@ -12,6 +12,7 @@ namespace depth_fusion {
 struct BagSources {
   std::string depth_topic;
   std::string color_topic;  // empty if there is none
+  std::string depth_frame;  // on tf
   RecordingIntrinsics intrinsics;
   LensDistortion distortion;
   std::optional<double> depth_unit_m;                // of depth in 16 bits, where the bag says it

@@ -1,6 +1,5 @@
 #include "ros/bags/bag_transforms.h"
 
-#include <tf2/buffer_core.h>
 #include <tf2/exceptions.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -9,7 +8,7 @@
 namespace depth_fusion {
 namespace {
 
-void addTransforms(const rosbag::MessageInstance& place, const BagFiles& bags, tf2::BufferCore& tf) {
+void addMessage(const rosbag::MessageInstance& place, const BagFiles& bags, tf2::BufferCore& tf) {
   try {
     const auto message = readMessage<tf2_msgs::TFMessage>(place, bags);
     for (geometry_msgs::TransformStamped transform : message->transforms) {
@@ -24,11 +23,15 @@ void addTransforms(const rosbag::MessageInstance& place, const BagFiles& bags, t
 
 }  // namespace
 
-std::optional<Pose> transformIn(const BagFiles& bags, const std::string& target, const std::string& source) {
-  tf2::BufferCore tf;
+void addTransforms(const BagFiles& bags, tf2::BufferCore& tf) {
   rosbag::View view;
   bags.addTo(view, {"/tf", "/tf_static"});
-  for (const rosbag::MessageInstance& place : view) addTransforms(place, bags, tf);
+  for (const rosbag::MessageInstance& place : view) addMessage(place, bags, tf);
+}
+
+std::optional<Pose> transformIn(const BagFiles& bags, const std::string& target, const std::string& source) {
+  tf2::BufferCore tf;
+  addTransforms(bags, tf);
   try {
     return fromMessage(
         tf.lookupTransform(withoutSlash(target), withoutSlash(source), ros::Time(0)).transform);

@@ -31,7 +31,9 @@ std::unique_ptr<Recording> openBags(const std::vector<std::string>& paths, const
 
 // A bag with the topics of openni2_launch: /camera/depth_registered/image_raw (16UC1, mm) and
 // /camera/rgb/image_raw (bgr8 or mono8), their camera_info, and the reference pose of the depth camera on /tf
-// (world -> camera_rgb_optical_frame). Throws Error if there is a file of that name.
+// (world -> camera_rgb_optical_frame). Frames with readings of a robot have its tree on tf (odom -> base_link
+// -> camera_rgb_optical_frame, imu_link), /imu/data, and the reference pose as /ground_truth. Throws Error if
+// there is a file of that name.
 std::unique_ptr<RecordingWriter> createBag(const std::string& path);
 
 }  // namespace depth_fusion

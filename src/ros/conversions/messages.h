@@ -22,6 +22,9 @@ inline double secondsBetween(const ros::Time& from, const ros::Time& to) { retur
 // The frame's name as tf2 takes it; tf had them with a slash before.
 std::string withoutSlash(const std::string& frame);
 
+// Whether the frame is one of odometry by its name (REP 105).
+inline bool isOdometry(const std::string& frame) { return frame.find("odom") != std::string::npos; }
+
 // Throws Error for a stamp that ROS has no time for. 0, which means "no time" in ROS, becomes the smallest
 // time.
 ros::Time toRosTime(double stamp_s);

@@ -1,6 +1,8 @@
 #include "ros/conversions/status_messages.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "ros/conversions/messages.h"
 
@@ -17,9 +19,26 @@ const char* stateName(uint8_t state) {
       return "degenerate";
     case TrackerStatus::PAUSED:
       return "paused";
+    case TrackerStatus::PREDICTED:
+      return "predicted by odometry";
     default:
       return "lost";
   }
+}
+
+bool isLost(const TrackerStatus& tracker) {
+  return tracker.state == TrackerStatus::LOST || tracker.state == TrackerStatus::PREDICTED;
+}
+
+// To what the pose is good that goes on without depth.
+std::string predictedText(const MotionPrior& bridged) {
+  const Matrix6d to_sensor = adjoint(bridged.T_W_D.inverse());
+  const Matrix6d covariance = to_sensor * *bridged.covariance * to_sensor.transpose();
+  char text[160];
+  std::snprintf(text, sizeof(text), "; the pose goes on by %s, to %.2f m and %.1f degrees (one sigma)",
+                bridged.origin.c_str(), std::sqrt(covariance.diagonal().tail<3>().sum()),
+                std::sqrt(covariance.diagonal().head<3>().sum()) * 180.0 / M_PI);
+  return text;
 }
 
 }  // namespace
@@ -29,6 +48,10 @@ TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingRe
   status.header = header;
   status.state = static_cast<uint8_t>(result.status);
   status.reason = result.reason;
+  if (result.bridged) {
+    status.state = TrackerStatus::PREDICTED;
+    status.reason += predictedText(*result.bridged);
+  }
   status.guessed_directions = result.guessed_directions;
   status.map_doubt = result.map_doubt;
   status.inliers = result.inliers;
@@ -38,6 +61,10 @@ TrackerStatus makeTrackerStatus(const std_msgs::Header& header, const TrackingRe
   status.prior = result.prior;
   status.dropped_prior = result.dropped_prior;
   status.prior_sigmas = result.prior_sigmas;
+  for (const PriorDistance& prior : result.priors) {
+    status.priors.push_back(prior.origin);
+    status.priors_sigmas.push_back(prior.sigmas);
+  }
   status.explained = result.explained;
   status.latency_s = secondsBetween(header.stamp, ros::Time::now());
   return status;
@@ -63,12 +90,13 @@ void diagnose(const TrackerStatus& tracker, const std::string& problem, const st
               diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (!problem.empty()) {
     status.summary(DiagnosticStatus::WARN, problem);
-  } else if (tracker.state == TrackerStatus::LOST && !tracker.reason.empty()) {
+  } else if (isLost(tracker) && !tracker.reason.empty()) {
     status.summary(DiagnosticStatus::ERROR, "lost: " + tracker.reason + advice);
   } else if (!tracker.reason.empty()) {
     status.summary(DiagnosticStatus::WARN, tracker.reason);
   }
   if (!tracker.map_doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, tracker.map_doubt);
+  if (!tracker.robot_problem.empty()) status.mergeSummary(DiagnosticStatus::WARN, tracker.robot_problem);
   status.add("state", tracker.frames.received == 0 ? "no frame yet" : stateName(tracker.state));
   status.add("inliers", tracker.inliers);
   status.add("rmse_m", tracker.rmse_m);

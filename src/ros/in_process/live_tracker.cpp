@@ -24,6 +24,7 @@ PipelineParameters LiveTracker::pipelineParameters() const {
 
 void LiveTracker::applyParameters() {
   if (session_ != nullptr) session_->setParameters(pipelineParameters());
+  robot_motion_.setParameters(parameters_.pipeline.robot_motion);
 }
 
 void LiveTracker::conclude() {
@@ -32,18 +33,26 @@ void LiveTracker::conclude() {
 
 LiveResult LiveTracker::track(const TexturedSensorFrame& frame, StageTimers& timers) {
   readySession(frame);
+  robot_motion_.add(robot_.readings(frame.sensor->header, frame.sensor->rgbd.stamp_s));
   catchUp(*frame.sensor);
+  TexturedFrame texture = frame.texture;
+  texture.robot = robot_motion_.knowledge(frame.sensor->rgbd.stamp_s);
   LiveResult result;
   result.tracking.reason = refusal(*frame.sensor);
   if (result.tracking.reason.empty()) {
-    searchAtExpected(*frame.sensor);
-    const Pose start = view() == nullptr ? robot_.start_pose(frame.sensor->header) : Pose::Identity();
-    result.tracking = session_->step(frame.sensor->rgbd, frame.texture, view(), timers, start);
+    searchAtExpected();
+    const Pose start = view() == nullptr
+                           ? robot_.start_pose(frame.sensor->header, texture.robot.attitude.up_D)
+                           : Pose::Identity();
+    result.tracking = session_->step(frame.sensor->rgbd, std::move(texture), view(), timers, start);
+    if (result.tracking.status != TrackingStatus::kLost)
+      robot_motion_.learn(frame.sensor->rgbd.stamp_s, result.tracking.T_W_D);
     rendered_.reset();
     if (!noise_was_said_) warnOfNoise();
   } else {
     result.lost_for = result.tracking.reason;
     session_->lose();
+    session_->skip(frame.sensor->rgbd.stamp_s, texture.measuredMotions());
   }
   return result;
 }
@@ -53,11 +62,12 @@ void LiveTracker::expectAt(const Pose& T_map_base) {
   T_map_base_ = T_map_base;
 }
 
-void LiveTracker::searchAtExpected(const SensorFrame& frame) {
+void LiveTracker::searchAtExpected() {
   std::unique_lock<std::mutex> lock(expected_mutex_);
   const std::optional<Pose> T_map_base = std::exchange(T_map_base_, std::nullopt);
   lock.unlock();
-  if (T_map_base) session_->searchAt(*T_map_base * robot_.camera_on_base(frame.header.frame_id));
+  if (T_map_base)
+    session_->searchAt(*T_map_base * robot_motion_.cameraOnBase().value_or(levelPose(kCameraUp)));
 }
 
 void LiveTracker::shareKeyframes() {
@@ -97,6 +107,7 @@ void LiveTracker::send(const SensorFramePtr& frame, const TrackingResult& tracki
 TrackerStatus LiveTracker::statusOf(const SensorFrame& frame, const LiveResult& result) const {
   TrackerStatus status = makeTrackerStatus(frame.header, result.tracking);
   if (result.lost_for == kPaused) status.state = TrackerStatus::PAUSED;
+  status.robot_problem = robot_motion_.problem();
   status.keyframes = session_ == nullptr ? 0 : static_cast<uint32_t>(session_->keyframes().size());
   return status;
 }
@@ -154,7 +165,7 @@ void LiveTracker::catchUp(const SensorFrame& frame) {
     map_ = nullptr;
     fusion_.beginMap();
   }
-  skipped_.replay(frame, *session_);
+  skipped_.replay(frame, *session_, robot_motion_);
 }
 
 std::string LiveTracker::refusal(const SensorFrame& frame) const {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "depth_fusion/pipeline/tracking_session.h"
+#include "depth_fusion/robot_motion/robot_motion.h"
 #include "ros/in_process/fusion_link.h"
 #include "ros/in_process/live_tracker_parameters.h"
 #include "ros/in_process/skipped_frames.h"
@@ -29,16 +30,22 @@ class LiveTracker {
  public:
   // The rest of the robot, where the poses go.
   struct Robot {
-    std::function<Pose(const std_msgs::Header& camera)> start_pose;  // of the frame that begins a map
-    std::function<void()> forget_poses;                              // they are those of a map that is gone
-    std::function<void(const Corrections&)> correct_poses;           // the map has moved
-    std::function<Pose(const std::string& camera)> camera_on_base;   // T_base_camera of that frame
+    // Of the frame that begins a map; `up_camera` is the direction against gravity, where it is known.
+    std::function<Pose(const std_msgs::Header& camera, const std::optional<Eigen::Vector3d>& up_camera)>
+        start_pose;
+    std::function<void()> forget_poses;                     // they are those of a map that is gone
+    std::function<void(const Corrections&)> correct_poses;  // the map has moved
+    // Those of its other sensors until the frame of that stamp.
+    std::function<MotionReadings(const std_msgs::Header& camera, double stamp_s)> readings;
   };
 
   // `frames` is the topic icp_tracking/frame. Keeps a reference to the parameters, which may change between
   // frames.
   LiveTracker(const LiveTrackerParameters& parameters, const ros::Publisher& frames, Robot robot)
-      : parameters_(parameters), fusion_(frames), robot_(std::move(robot)) {}
+      : parameters_(parameters),
+        fusion_(frames),
+        robot_(std::move(robot)),
+        robot_motion_(parameters.pipeline.robot_motion) {}
 
   // From any thread:
   FusionLink& fusion() { return fusion_; }
@@ -86,7 +93,7 @@ class LiveTracker {
   // Lets whoever saves the map have its keyframes.
   void shareKeyframes();
   Keyframes keyframesOf(const std::shared_ptr<const MapView>& map) const;
-  void searchAtExpected(const SensorFrame& frame);
+  void searchAtExpected();
   // The map as seen from anywhere, for relocalisation. Throws Error if it is gone.
   const ModelView& render(const Pose& T_W_D);
 
@@ -94,6 +101,7 @@ class LiveTracker {
   FusionLink fusion_;
   Robot robot_;
   SkippedFrames skipped_;
+  RobotMotion robot_motion_;
 
   std::shared_ptr<ComputeContext> compute_;
   std::unique_ptr<TrackingSession> session_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "depth_fusion/pipeline/tracking_session.h"
+#include "depth_fusion/robot_motion/robot_motion.h"
 #include "ros/in_process/frames.h"
 
 namespace depth_fusion {
@@ -13,8 +14,8 @@ namespace depth_fusion {
 class SkippedFrames {
  public:
   void add(const TexturedSensorFrame& frame);
-  // Tells the session of the skipped frames that came before this one.
-  void replay(const SensorFrame& frame, TrackingSession& session);
+  // Tells the session of the skipped frames that came before this one, with what the robot knows of them.
+  void replay(const SensorFrame& frame, TrackingSession& session, RobotMotion& robot);
 
  private:
   struct Skipped {

@@ -9,6 +9,7 @@
 #include "ros/nodelets/icp_tracking_nodelet_parameters.h"
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/output/pose_publisher.h"
+#include "ros/output/robot_sensors.h"
 #include "ros/output/tracker_report.h"
 
 namespace depth_fusion {
@@ -27,10 +28,10 @@ class IcpTrackingNodelet : public StageNodelet {
   void process(const WaitingFrame& waiting);
   void publish(const SensorFrame& frame, const LiveResult& result, StageTimers& timers);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
-
   IcpTrackingNodeletParameters parameters_;
   ros::Subscriber frame_subscriber_, view_subscriber_;
   std::unique_ptr<PosePublisher> pose_publisher_;
+  std::unique_ptr<RobotSensors> sensors_;
   std::unique_ptr<TrackerReport> report_;
   std::unique_ptr<LiveTracker> tracker_;
   std::unique_ptr<Worker<WaitingFrame>> worker_;
@@ -52,14 +53,15 @@ void IcpTrackingNodelet::start() {
   loadParameters(parameters_.table(), parameters_.stages());
   ros::NodeHandle& private_handle = getMTPrivateNodeHandle();
   pose_publisher_ = std::make_unique<PosePublisher>(getMTNodeHandle(), private_handle, parameters_.pose);
+  sensors_ = std::make_unique<RobotSensors>(getMTNodeHandle(), pose_publisher_->transforms());
   report_ = std::make_unique<TrackerReport>(private_handle.advertise<TrackerStatus>("status", 100, true));
   tracker_ = std::make_unique<LiveTracker>(
       parameters_.tracker, private_handle.advertise<TrackedFrameMessage>("frame", kProcessQueue),
       LiveTracker::Robot{
-          [this](const std_msgs::Header& camera) { return pose_publisher_->startPose(camera); },
+          [this](const auto& camera, const auto& up) { return pose_publisher_->startPose(camera, up); },
           [this] { pose_publisher_->reset(); },
           [this](const Corrections& corrections) { pose_publisher_->correct(corrections); },
-          [this](const std::string& camera) { return pose_publisher_->cameraOnBase(camera); }});
+          [this](const auto& camera, double stamp_s) { return sensors_->until(camera, stamp_s); }});
   worker_ = std::make_unique<Worker<WaitingFrame>>(
       parameters_.queue_size, [this](const WaitingFrame& frame) { process(frame); },
       [this](const WaitingFrame& frame) {
@@ -126,7 +128,8 @@ void IcpTrackingNodelet::publish(const SensorFrame& frame, const LiveResult& res
   const bool lost = result.tracking.status == TrackingStatus::kLost;
   if (lost) {
     counter_.drop(result.lost_for);
-    pose_publisher_->showSign((result.lost_for == kLost ? "LOST: " : "") + result.tracking.reason);
+    pose_publisher_->publishLost(frame.header, result.tracking.bridged,
+                                 (result.lost_for == kLost ? "LOST: " : "") + result.tracking.reason);
   } else {
     counter_.process();
     pose_publisher_->publish(frame.header, result.tracking.T_W_D, result.tracking.covariance);

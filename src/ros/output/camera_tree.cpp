@@ -19,8 +19,6 @@ constexpr double kPoll_s = 0.002;
 
 }  // namespace
 
-bool isOdometry(const std::string& frame) { return frame.find("odom") != std::string::npos; }
-
 CameraTree::CameraTree(ros::NodeHandle handle, const std::string& map_frame) : map_frame_(map_frame) {
   const auto subscribe = [&](const std::string& topic, bool is_static) {
     return handle.subscribe<tf2_msgs::TFMessage>(

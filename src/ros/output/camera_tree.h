@@ -13,9 +13,6 @@
 
 namespace depth_fusion {
 
-// Whether the frame is one of odometry by its name (REP 105).
-bool isOdometry(const std::string& frame);
-
 // Thread-safe. Nothing but awaitGrown() waits.
 class CameraTree {
  public:

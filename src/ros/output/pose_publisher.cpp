@@ -36,12 +36,22 @@ void PosePublisher::publish(const std_msgs::Header& camera, const Pose& T_map_ca
                             const Matrix6d& covariance) {
   transforms_.take(camera, T_map_camera);
   viewer_aids_.showTracked(camera.stamp, T_map_camera);
-  const std_msgs::Header header = makeHeader(camera.stamp, map_frame_);
+  publishMessage(camera, T_map_camera, covariance);
+  addToPath(makeHeader(camera.stamp, map_frame_), T_map_camera);
+}
+
+void PosePublisher::publishLost(const std_msgs::Header& camera, const std::optional<MotionPrior>& bridged,
+                                const std::string& text) {
+  if (bridged) publishMessage(camera, bridged->T_W_D, *bridged->covariance);
+  viewer_aids_.showSign(text);
+}
+
+void PosePublisher::publishMessage(const std_msgs::Header& camera, const Pose& T_map_camera,
+                                   const Matrix6d& covariance) {
   auto pose = boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>();
-  pose->header = header;
+  pose->header = makeHeader(camera.stamp, map_frame_);
   pose->pose = toMessage(T_map_camera, covariance);
   pose_publisher_.publish(pose);
-  addToPath(header, T_map_camera);
 }
 
 void PosePublisher::reset() {

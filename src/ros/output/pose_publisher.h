@@ -7,8 +7,10 @@
 #include <ros/node_handle.h>
 
 #include <mutex>
+#include <optional>
 #include <string>
 
+#include "depth_fusion/frames/motion_prior.h"
 #include "depth_fusion/loops/corrections.h"
 #include "ros/output/pose_parameters.h"
 #include "ros/output/transform_sender.h"
@@ -22,11 +24,15 @@ class PosePublisher {
   PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_handle, const PoseParameters& parameters);
 
   // As TransformSender has it.
-  Pose startPose(const std_msgs::Header& camera) { return transforms_.startPose(camera); }
-  Pose cameraOnBase(const std::string& camera_frame) const { return transforms_.cameraOnBase(camera_frame); }
+  Pose startPose(const std_msgs::Header& camera, const std::optional<Eigen::Vector3d>& up_camera) {
+    return transforms_.startPose(camera, up_camera);
+  }
+  const TransformSender& transforms() const { return transforms_; }
   void publish(const std_msgs::Header& camera, const Pose& T_map_camera, const Matrix6d& covariance);
-  // Shows that text where the camera was last, until the next pose.
-  void showSign(const std::string& text) { viewer_aids_.showSign(text); }
+  // Shows that text where the camera was last, until the next pose. Where something else measures its motion,
+  // that pose goes out as a message only: odometry on tf moves on by itself.
+  void publishLost(const std_msgs::Header& camera, const std::optional<MotionPrior>& bridged,
+                   const std::string& text);
   // Forgets the path and the last pose, which belong to another map.
   void reset();
   // Closed loops have moved the poses: the path goes out again as they have it.
@@ -35,6 +41,7 @@ class PosePublisher {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
+  void publishMessage(const std_msgs::Header& camera, const Pose& T_map_camera, const Matrix6d& covariance);
   // A path that has grown is sent, at a rate that keeps its bytes a second bounded.
   void addToPath(const std_msgs::Header& header, const Pose& T_map_camera);
   void publishPath();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depth_fusion/frames/known_attitude.h"
 #include "ros/conversions/messages.h"
 
 namespace depth_fusion {
@@ -15,13 +16,6 @@ constexpr double kStandingOdometry_s = 1.0;  // without news, before poses go on
 constexpr double kMoved = 1e-3;              // of a camera's pose in the root, more than rounding
 constexpr double kSameClock_s = 10.0;        // stamps farther from ROS time are another clock's
 constexpr double kAhead_s = 0.5;             // and images that are ahead of it by more are, too
-
-// The optical frame (z forward, y down) of a camera that looks along x with z up.
-Pose levelCamera() {
-  Pose T_map_camera = Pose::Identity();
-  T_map_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
-  return T_map_camera;
-}
 
 std::string tenths(double value) {
   char text[32];
@@ -44,7 +38,8 @@ TransformSender::TransformSender(ros::NodeHandle handle, const PoseParameters& p
       timer_(callbacks_.createWallTimer(handle, ros::WallDuration(kPeriod_s),
                                         [this](const ros::WallTimerEvent&) { sendAhead(); })) {}
 
-Pose TransformSender::startPose(const std_msgs::Header& camera) {
+Pose TransformSender::startPose(const std_msgs::Header& camera,
+                                const std::optional<Eigen::Vector3d>& up_camera) {
   if (!hasRoot()) tree_.awaitGrown(camera.frame_id);
   const std::lock_guard<std::mutex> lock(mutex_);
   followRoot(camera.frame_id);
@@ -52,16 +47,33 @@ Pose TransformSender::startPose(const std_msgs::Header& camera) {
     if (const auto at_stamp = tree_.cameraIn(root_.frame, camera)) return *at_stamp;
     if (const auto newest = tree_.newest(root_.frame, camera.frame_id)) return newest->T_frame_camera;
   }
-  return parameters_.level_start ? levelCamera() : Pose::Identity();
+  if (!parameters_.level_start) return Pose::Identity();
+  return levelPose(up_camera.value_or(kCameraUp));
 }
 
-Pose TransformSender::cameraOnBase(const std::string& camera_frame) const {
+std::optional<Pose> TransformSender::cameraOnBase(const std::string& camera_frame) const {
   for (const std::string& base :
        {parameters_.base_frame, std::string("base_link"), std::string("base_footprint")}) {
     if (base.empty()) continue;
     if (const auto placed = tree_.newest(base, camera_frame)) return placed->T_frame_camera;
   }
-  return levelCamera();
+  return std::nullopt;
+}
+
+std::optional<Pose> TransformSender::cameraIn(const std::string& frame,
+                                              const std::string& camera_frame) const {
+  const auto placed = tree_.newest(frame, camera_frame);
+  return placed ? std::optional<Pose>(placed->T_frame_camera) : std::nullopt;
+}
+
+std::optional<OdometryReading> TransformSender::odometry(const std_msgs::Header& camera) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (root_.frame.empty() || root_.in_map || !moves_ || has_other_clock_) return std::nullopt;
+  if (const auto at_stamp = tree_.cameraIn(root_.frame, camera))
+    return OdometryReading{camera.stamp.toSec(), *at_stamp};
+  const auto newest = tree_.newest(root_.frame, camera.frame_id);
+  if (!newest || newest->stamp.isZero()) return std::nullopt;
+  return OdometryReading{newest->stamp.toSec(), newest->T_frame_camera};
 }
 
 bool TransformSender::hasRoot() const {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "depth_fusion/frames/motion_readings.h"
 #include "ros/callbacks/callback_gate.h"
 #include "ros/output/camera_tree.h"
 #include "ros/output/pose_parameters.h"
@@ -29,11 +30,16 @@ class TransformSender {
 
   // Returns T_map_camera for the first frame, with which the root stands at the map's origin. A camera
   // without a tree, or one that tf does not connect with the given root, looks along x with z up (REP 103),
-  // or is the origin itself without level_start. The first call waits until the tree no longer grows.
-  Pose startPose(const std_msgs::Header& camera);
+  // or is the origin itself without level_start. Where gravity is known, `up_camera` is the direction against
+  // it, and such a camera begins as it is held. The first call waits until the tree no longer grows.
+  Pose startPose(const std_msgs::Header& camera, const std::optional<Eigen::Vector3d>& up_camera);
   // Returns T_base_camera, of the robot's base: base_frame, or base_link or base_footprint where tf has one.
-  // A camera without a base looks along x with z up.
-  Pose cameraOnBase(const std::string& camera_frame) const;
+  std::optional<Pose> cameraOnBase(const std::string& camera_frame) const;
+  // Returns where odometry has the camera at the image's stamp, or by the newest that there is; none without
+  // odometry, or where the two have different clocks.
+  std::optional<OdometryReading> odometry(const std_msgs::Header& camera) const;
+  // Returns T_frame_camera as tf last had it.
+  std::optional<Pose> cameraIn(const std::string& frame, const std::string& camera_frame) const;
   void take(const std_msgs::Header& camera, const Pose& T_map_camera);
   // Forgets the poses, which belong to another map.
   void reset();

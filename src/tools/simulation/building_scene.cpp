@@ -51,10 +51,19 @@ Walk laps() {
       {{-10, kNorth_m}, {kEast_m, kNorth_m}, {kEast_m, kSouth_m}, {kWest_m, kSouth_m}, {kWest_m, kNorth_m}});
 }
 
+Walk drive() {
+  std::vector<Vector2d> way = {{0, kNorth_m}};
+  visit(way, kOuterDoor_m[4], kNorth_m, false);
+  way.insert(way.end(), {{kEast_m, kNorth_m}, {kEast_m, kSouth_m}});
+  visit(way, kOuterDoor_m[4], kSouth_m, false);
+  way.insert(way.end(), {{0, kSouth_m}});
+  return driveAlong("drive", "a robot: half the ring of corridors and two rooms", way);
+}
+
 }  // namespace
 
 SimulatedScene makeBuildingScene() {
-  return sceneWithWalks(build(buildingRooms(), buildingDoorways()), {tour(), loop(), laps()});
+  return sceneWithWalks(build(buildingRooms(), buildingDoorways()), {tour(), loop(), laps(), drive()});
 }
 
 }  // namespace depth_fusion

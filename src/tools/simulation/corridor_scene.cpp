@@ -41,6 +41,12 @@ Walk thereAndBack() {
                     {-1.8, -0.25}});
 }
 
+Walk drive() {
+  return driveAlong(
+      "drive", "a robot: 60 m along the corridor from the first lobby, round, and back",
+      {{0, -0.25}, {60, -0.25}, {60, 0.25}, {0.6, 0.25}, {0.6, 1.75}, {-1.8, 1.75}, {-1.8, -0.25}});
+}
+
 std::vector<Primitive> corridor() {
   return build({{{3, -1.25, 97, 1.25}, kFinish, kCorridorFurniture, 1},
                 {{-3, -3, 3, 3}, kFinish, kLobbyFurniture, 2},
@@ -50,14 +56,14 @@ std::vector<Primitive> corridor() {
 
 }  // namespace
 
-SimulatedScene makeCorridorScene() { return sceneWithWalks(corridor(), {thereAndBack()}); }
+SimulatedScene makeCorridorScene() { return sceneWithWalks(corridor(), {thereAndBack(), drive()}); }
 
 SimulatedScene makeWhiteCorridorScene() {
   Material white{{225, 225, 225}, Pattern::kPlain};
   white.shaded = false;
   std::vector<Primitive> solids = corridor();
   for (Primitive& solid : solids) solid.paint(white);
-  return sceneWithWalks(std::move(solids), {thereAndBack()});
+  return sceneWithWalks(std::move(solids), {thereAndBack(), drive()});
 }
 
 }  // namespace depth_fusion

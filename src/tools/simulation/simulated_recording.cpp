@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/frames/known_attitude.h"
 
 namespace depth_fusion {
 namespace {
@@ -24,11 +25,11 @@ void checkOptions(const SimulationOptions& options, const SimulatedScene& scene)
   check(options.intrinsics.valid(), "the intrinsics of a simulated recording must be positive");
 }
 
-GazePath pathOf(const SimulatedScene& scene, const SimulationOptions& options) {
-  if (options.walk.empty()) return scene.path;
+Walk walkOf(const SimulatedScene& scene, const SimulationOptions& options) {
+  if (options.walk.empty()) return {"", "", scene.path};
   std::string names;
   for (const Walk& walk : scene.walks) {
-    if (walk.name == options.walk) return walk.path;
+    if (walk.name == options.walk) return walk;
     names += (names.empty() ? "; its walks are " : ", ") + walk.name;
   }
   throw Error("scene '" + options.scene + "' has no walk '" + options.walk + "'" +
@@ -65,7 +66,9 @@ HandSpeed handSpeed(const SimulationOptions& options, const GazePath& path) {
 
 SimulatedRecording::SimulatedRecording(const SimulationOptions& options)
     : options_(options), scene_(makeScene(options.scene)) {
-  scene_.path = pathOf(scene_, options_);
+  const Walk walk = walkOf(scene_, options_);
+  scene_.path = walk.path;
+  if (walk.is_driven) options_.tremor = 0.0;
   if (options_.lifelike) {
     scene_.sensor.readout_s = kReadout_s;
     scene_.sensor.color = videoCamera();
@@ -73,6 +76,13 @@ SimulatedRecording::SimulatedRecording(const SimulationOptions& options)
   if (options_.intrinsics.width == 0) options_.intrinsics = scene_.sensor.camera;
   checkOptions(options_, scene_);
   hand_speed_ = handSpeed(options_, scene_.path);
+  if (options_.robot.has_wheels || options_.robot.has_imu)
+    robot_.emplace(
+        options_.robot,
+        [path = scene_.path, options = options_, speed = hand_speed_](double time_s) {
+          return handHeldPose(path, options.seed, speed, time_s, options.tremor);
+        },
+        walk.is_driven ? cameraOnRobot() : levelPose(kCameraUp), kFirstStamp_s, options_.seed);
 }
 
 Pose SimulatedRecording::poseAt(double time_s) const {
@@ -112,6 +122,7 @@ std::optional<RgbdFrame> SimulatedRecording::next() {
   frame.color = senseColor(view, scene_.sensor.color, options_.intrinsics, motion, noise_seed);
   frame.intrinsics = options_.intrinsics;
   frame.T_W_D = pose.T_W_D;
+  if (robot_) frame.readings = robot_->until(time_s);
   return frame;
 }
 

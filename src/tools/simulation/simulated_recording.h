@@ -1,8 +1,11 @@
 // A built-in scene seen by a simulated hand-held sensor, as a recording with exact poses.
 #pragma once
 
+#include <optional>
+
 #include "depth_fusion/recording/recording.h"
 #include "tools/simulation/scene_library.h"
+#include "tools/simulation/simulated_robot.h"
 
 namespace depth_fusion {
 
@@ -19,6 +22,7 @@ struct SimulationOptions {
   // The speed of the recording's fastest moment, tremor aside, in place of `speed`; 0: as `speed` says.
   double linear_speed_m_s = 0.0;
   double turn_rate_deg_s = 0.0;
+  RobotOptions robot;           // what is under the camera
   CameraIntrinsics intrinsics;  // width 0: those of the scene's sensor
 };
 
@@ -49,6 +53,7 @@ class SimulatedRecording : public Recording {
   SimulationOptions options_;
   SimulatedScene scene_;
   HandSpeed hand_speed_;
+  std::optional<SimulatedRobot> robot_;
   int next_frame_ = 0;
 };
 

@@ -15,6 +15,7 @@ constexpr double kEyeHeight_m = 1.4;
 constexpr double kLookAhead_m = 1.2;
 constexpr double kLookDown = 0.25;  // tangent
 constexpr double kRounding_m = 1.0;
+constexpr double kMount_m = 1.0, kMountAhead_m = 0.2, kMountLooksDown = 0.35;  // of a robot's camera
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -29,6 +30,11 @@ Gaze gazeAlong(const Route& route, const Sway& walk, const Sway& look) {
   gaze.target_W = {target.x(), target.y(), gaze.eye_W.z() - kLookDown + 0.06 * look(3, 4.3)};
   gaze.roll_rad = 0.03 * look(4, 4.1);
   return gaze;
+}
+
+Gaze gazeOfRobot(const Vector2d& base, const Vector2d& ahead) {
+  const Vector2d eye = base + kMountAhead_m * ahead, target = eye + ahead;
+  return {{eye.x(), eye.y(), kMount_m}, {target.x(), target.y(), kMount_m - kMountLooksDown}};
 }
 
 }  // namespace
@@ -67,6 +73,22 @@ Vector2d Route::at(double along_m) const {
   const Vector2d left(-leg.direction.y(), leg.direction.x());
   return leg.begin_m +
          (std::sin(turned_rad) * leg.direction + (1.0 - std::cos(turned_rad)) * left) / leg.curvature_1_m;
+}
+
+Walk driveAlong(const std::string& name, const std::string& help, const std::vector<Vector2d>& corners_m) {
+  const Route route(corners_m);
+  const auto gaze = [route](const Sway& walk, const Sway&) {
+    constexpr double kStep_m = 1e-4;
+    const double along_m = kSpeed_m_s * walk.time_s();
+    const Vector2d ahead = (route.at(along_m + kStep_m) - route.at(along_m - kStep_m)).normalized();
+    return gazeOfRobot(route.at(along_m), ahead);
+  };
+  return {name, help, gaze, route.length_m() / kSpeed_m_s, true};
+}
+
+Pose cameraOnRobot() {
+  const GazePath standing = [](const Sway&, const Sway&) { return gazeOfRobot({0.0, 0.0}, {1.0, 0.0}); };
+  return handHeldPose(standing, 0, {}, 0.0, 0.0);
 }
 
 Walk walkAlong(const std::string& name, const std::string& help, const std::vector<Vector2d>& corners_m) {

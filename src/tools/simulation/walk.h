@@ -35,11 +35,17 @@ class Route {
 struct Walk {
   std::string name, help;
   GazePath path;
-  double round_s = 0.0;  // after so long the camera is back at the start
+  double round_s = 0.0;    // after so long the camera is back at the start
+  bool is_driven = false;  // a robot's wheels carry the camera, without a tremor
 };
 
 // Carries the camera along a route at 0.6 m/s and 1.4 m above the ground, looking ahead and a little down.
 Walk walkAlong(const std::string& name, const std::string& help,
                const std::vector<Eigen::Vector2d>& corners_m);
+// The same of a robot, whose camera looks ahead and down, a metre above the ground.
+Walk driveAlong(const std::string& name, const std::string& help,
+                const std::vector<Eigen::Vector2d>& corners_m);
+// Where that camera stands on the robot, whose origin is on the ground.
+Pose cameraOnRobot();
 
 }  // namespace depth_fusion

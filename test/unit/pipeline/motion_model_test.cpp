@@ -21,11 +21,48 @@ void expectPrior(const MotionPrior& prior, const std::string& origin, double x_m
   EXPECT_EQ(prior.covariance.has_value(), origin != "last pose");
 }
 
-TEST(MotionModel, TheFirstMeasuredMotionIsThePrior) {
+FrameMotion sureMotion(const std::string& origin, double x_m, double sigma) {
+  return {origin, at(x_m), sigma * sigma * Matrix6d::Identity()};
+}
+
+TEST(MotionModel, MotionsThatAgreeAreThePriorTogether) {
   MotionModel model;
   model.moveTo(0.0, at(1.0));
-  expectPrior(model.predict(kPeriod_s, {motion("wheels", 0.02), motion("texture", 0.05)}), "wheels", 1.02);
-  EXPECT_NEAR(model.velocity()[3], 0.02 / kPeriod_s, 1e-12);
+  const MotionPrior prior =
+      model.predict(kPeriod_s, {sureMotion("texture", 0.02, 0.01), sureMotion("odometry", 0.05, 0.02)});
+  expectPrior(prior, "texture, odometry", 1.026);
+  EXPECT_NEAR((*prior.covariance)(3, 3), 0.8e-4, 1e-12);
+  EXPECT_NEAR(model.velocity()[3], 0.026 / kPeriod_s, 1e-12);
+  EXPECT_EQ(model.otherStarts().front().origin, "last pose");
+}
+
+TEST(MotionModel, AMotionThatContradictsTheFirstIsAnotherStart) {
+  MotionModel model;
+  model.moveTo(0.0, at(1.0));
+  expectPrior(
+      model.predict(kPeriod_s, {sureMotion("texture", 0.02, 0.001), sureMotion("odometry", 0.05, 0.001)}),
+      "texture", 1.02);
+  expectPrior(model.otherStarts().front(), "odometry", 1.05);
+  ASSERT_EQ(model.measured().size(), 2u);
+  expectPrior(model.measured()[1], "odometry", 1.05);
+}
+
+TEST(MotionModel, ALostSensorsPoseGoesOnWithAGrowingCovariance) {
+  MotionModel model;
+  model.moveTo(0.0, at(1.0));
+  EXPECT_FALSE(model.bridged());
+  model.lose();
+  double before = 0.0;
+  for (int i = 1; i <= 4; ++i) {
+    const MotionPrior prior = model.predict(i * kPeriod_s, {sureMotion("odometry", 0.1, 0.01)});
+    ASSERT_TRUE(model.bridged());
+    EXPECT_NEAR(model.bridged()->T_W_D.translation().x(), 1.0 + 0.1 * i, 1e-12);
+    EXPECT_NEAR((*prior.covariance)(3, 3), i * 1e-4, 1e-12);
+    EXPECT_GT((*prior.covariance)(4, 4), before) << "the heading's error moves it aside";
+    before = (*prior.covariance)(4, 4);
+  }
+  model.predict(5 * kPeriod_s, {});
+  EXPECT_FALSE(model.bridged()) << "a motion is missing";
 }
 
 TEST(MotionModel, WithoutAMotionItIsTheLastPose) {
