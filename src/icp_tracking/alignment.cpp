@@ -39,11 +39,18 @@ IcpSolution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const I
                   double correlated) {
   const IcpSystem system = weighed(analysis.constrained(), correlated);
   const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
-  if (!prior.information)
-    return {analysis.solve(deviation), (system.hessian + kGuessInformation * Matrix6d::Identity()).inverse()};
-  const Matrix6d information = system.hessian + *prior.information;
-  const Vector6d gradient = system.gradient + *prior.information * deviation;
-  return {information.ldlt().solve(-gradient), information.inverse()};
+  const Matrix6d other = prior.information.value_or(kGuessInformation * Matrix6d::Identity());
+  const Matrix6d information = system.hessian + other, inverse = information.inverse();
+  // The matches' own scatter says how sure they are, the weight how much they count.
+  const double excess = analysis.system().correlated() / correlated;
+  IcpSolution solution;
+  solution.share_of_prior = inverse * other;
+  solution.covariance_of_prior = inverse * other * inverse;
+  solution.covariance = inverse * (excess * system.hessian) * inverse + solution.covariance_of_prior;
+  const Vector6d gradient = system.gradient + other * deviation;
+  solution.twist =
+      prior.information ? Vector6d(information.ldlt().solve(-gradient)) : analysis.solve(deviation);
+  return solution;
 }
 
 double distanceFromPrior(const DegeneracyAnalysis& analysis, const Pose& T_M_D,

@@ -26,6 +26,7 @@ class DegeneracyAnalysis {
   double smallestEigenvalue() const { return eigenvalues_(0); }
   // The twist that belongs to it.
   Vector6d weakestTwist() const { return to_shrunk_.transpose() * eigenvectors_.col(0); }
+  const IcpSystem& system() const { return system_; }
   // The system without what it says about the free directions.
   IcpSystem constrained() const;
   // The solution, which along the free directions takes back the motion `so_far`.

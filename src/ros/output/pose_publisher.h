@@ -1,4 +1,4 @@
-// The tracker's poses for the rest of the robot: tf2 (REP 105), PoseWithCovarianceStamped, Path.
+// The tracker's poses for the rest of the robot: tf2 (REP 105), PoseWithCovarianceStamped, Odometry, Path.
 #pragma once
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
@@ -10,6 +10,7 @@
 #include <string>
 
 #include "depth_fusion/loops/corrections.h"
+#include "ros/output/odometry_publisher.h"
 #include "ros/output/pose_parameters.h"
 #include "ros/output/transform_sender.h"
 #include "ros/output/viewer_aids.h"
@@ -24,7 +25,7 @@ class PosePublisher {
   // As TransformSender has it.
   Pose startPose(const std_msgs::Header& camera) { return transforms_.startPose(camera); }
   Pose cameraOnBase(const std::string& camera_frame) const { return transforms_.cameraOnBase(camera_frame); }
-  void publish(const std_msgs::Header& camera, const Pose& T_map_camera, const Matrix6d& covariance);
+  void publish(const std_msgs::Header& camera, const TrackingResult& tracked);
   // Shows that text where the camera was last, until the next pose.
   void showSign(const std::string& text) { viewer_aids_.showSign(text); }
   // Forgets the path and the last pose, which belong to another map.
@@ -41,6 +42,7 @@ class PosePublisher {
 
   const std::string map_frame_;
   TransformSender transforms_;
+  OdometryPublisher odometry_;
   ViewerAids viewer_aids_;
   std::mutex path_mutex_;  // of the path, which late viewers get whole
   nav_msgs::Path path_;
