@@ -1,5 +1,6 @@
 // benchmark measures how fast everything is, and repeats the experiments behind docs/; each is a subcommand,
 // in benchmark/.
+#include "apps/benchmark/covariance.h"
 #include "apps/benchmark/filters.h"
 #include "apps/benchmark/growth.h"
 #include "apps/benchmark/long_walk.h"
@@ -25,6 +26,8 @@ int main(int argc, char** argv) {
   depth_fusion::addLongWalkBenchmark(app, long_walk);
   depth_fusion::LoopsOptions loops;
   depth_fusion::addLoopsBenchmark(app, loops);
+  depth_fusion::CovarianceOptions covariance;
+  depth_fusion::addCovarianceBenchmark(app, covariance);
   depth_fusion::TrackingBenchmark suite;
   depth_fusion::addBenchmarkSuite(app, suite);
   return depth_fusion::runApp(app, [&] {

@@ -69,18 +69,25 @@ IcpSolution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const I
                   double correlated) {
   const IcpSystem system = weighed(analysis.constrained(), correlated);
   const Vector6d deviation = twistFromPose(orthonormalized(T_M_D * prior.T_M_D.inverse()));
-  if (!prior.information && !prior.measured_pose)
-    return {analysis.solve(deviation), (system.hessian + kGuessInformation * Matrix6d::Identity()).inverse()};
   // What nothing measures stays about where it was expected.
-  const Matrix6d guess = kGuessInformation * Matrix6d::Identity();
-  const Matrix6d motion = prior.information.value_or(guess);
-  Matrix6d information = system.hessian + motion;
+  const Matrix6d motion = prior.information.value_or(kGuessInformation * Matrix6d::Identity());
+  Matrix6d other = motion;
   Vector6d gradient = system.gradient + motion * deviation;
   if (prior.measured_pose) {
-    information += prior.measured_pose->information;
+    other += prior.measured_pose->information;
     gradient += prior.measured_pose->information * (deviation + prior.measured_pose->error);
   }
-  return {information.ldlt().solve(-gradient), information.inverse()};
+  const Matrix6d information = system.hessian + other, inverse = information.inverse();
+  // The matches' own scatter says how sure they are, the weight how much they count.
+  const double excess = analysis.system().correlated() / correlated;
+  IcpSolution solution;
+  solution.share_of_prior = inverse * motion;
+  solution.covariance_of_prior = inverse * other * inverse;
+  solution.covariance = inverse * (excess * system.hessian) * inverse + solution.covariance_of_prior;
+  const bool is_measured = prior.information || prior.measured_pose;
+  solution.twist =
+      is_measured ? Vector6d(information.ldlt().solve(-gradient)) : analysis.solve(deviation);
+  return solution;
 }
 
 double distanceFromPrior(const DegeneracyAnalysis& analysis, const Pose& T_M_D,

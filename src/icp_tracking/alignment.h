@@ -20,11 +20,19 @@ struct IcpTracker::SystemPrior {
   bool measures(const Vector6d& twist) const;
 };
 
+struct IcpSolution {
+  Vector6d twist = Vector6d::Zero();
+  // As TrackingResult has them.
+  Matrix6d covariance = Matrix6d::Identity();
+  Matrix6d covariance_of_prior = Matrix6d::Zero();
+  Matrix6d share_of_prior = Matrix6d::Zero();
+};
+
 // The state that the iterations have come to.
 struct IcpTracker::Alignment {
   Pose T_M_D;
   IcpSystem system;  // of the last iteration, as the members below
-  Matrix6d covariance = Matrix6d::Identity();
+  IcpSolution solution;
   double prior_sigmas = 0.0;    // how far geometry alone is from the prior
   std::string free_directions;  // those that geometry says weakly among them
   int free = 0;                 // directions that geometry does not even say weakly
@@ -42,11 +50,6 @@ constexpr double kGuessInformation = 9.0;
 constexpr double kMoreThanAGuess = 2.0;
 
 IcpTracker::SystemPrior toSystem(const MotionPrior& prior, const Pose& T_M_W);
-
-struct IcpSolution {
-  Vector6d twist;
-  Matrix6d covariance;
-};
 
 // The step that balances matches and prior. Neighbouring matches share their errors, so that `correlated`
 // count as one.

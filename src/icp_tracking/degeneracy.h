@@ -28,6 +28,7 @@ class DegeneracyAnalysis {
   Vector6d weakestTwist() const { return to_shrunk_.transpose() * eigenvectors_.col(0); }
   // The twists of the free directions, in columns.
   Eigen::MatrixXd freeTwists() const { return to_shrunk_.transpose() * eigenvectors_.leftCols(free_); }
+  const IcpSystem& system() const { return system_; }
   // The system without what it says about the free directions.
   IcpSystem constrained() const;
   // The solution, which along the free directions takes back the motion `so_far`.

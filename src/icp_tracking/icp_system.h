@@ -20,8 +20,15 @@ struct IcpSystem {
   double fit = 0.0;             // sum over the inliers of 1 - (r / (ICP_FIT_SIGMAS sigma))^2, each at least 0
   double covered_points = 0.0;  // source points that are seen where the model has a surface
   double weights = 0.0;         // sum over the inliers
+  // Sum over the bands of rows of g g^T, g what a band's gradient differs by from their mean.
+  Matrix6d scatter = Matrix6d::Zero();
 
   double rmse() const;  // metres, weighted
+  // How many matches count as one independent measurement, 1 at least: how much more the gradients of the
+  // bands scatter than those of independent residuals with the sensor's sigma would. Errors that neighbours
+  // share, of the frame and of the model, are in it (the "meat" of a cluster-robust covariance: K.-Y. Liang,
+  // S. Zeger, "Longitudinal data analysis using generalized linear models", Biometrika 1986).
+  double correlated() const;
 };
 
 // Adds up the rows' partial sums (ICP_SUMS each), in double and in order, so that the result is repeatable.

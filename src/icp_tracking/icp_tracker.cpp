@@ -63,10 +63,9 @@ bool IcpTracker::alignLevel(int level, const DepthFrame& frame, const ModelView&
     if (alignment.system.inliers < 6.0) return false;
     const IcpSystem& system = alignment.system;
     const DegeneracyAnalysis analysis(system, level == 0 ? system.structure : system.hessian, box, threshold);
-    const IcpSolution solution = solve(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
-    const Vector6d step = limited(solution.twist, gates, box);
+    alignment.solution = solve(analysis, alignment.T_M_D, prior, parameters_.correlated_points);
+    const Vector6d step = limited(alignment.solution.twist, gates, box);
     alignment.T_M_D = poseFromTwist(step) * alignment.T_M_D;
-    alignment.covariance = solution.covariance;
     const bool converged = step.head<3>().norm() < coarseness * parameters_.convergence_rad &&
                            step.tail<3>().norm() < coarseness * parameters_.convergence_m;
     if (!converged && i + 1 < iterations[level]) continue;
@@ -140,10 +139,13 @@ TrackingResult IcpTracker::track(const DepthFrame& frame, const ModelView& view,
     result.guessed_directions = 1;
     result.reason = alignment.weakest_name;
     const Vector6d direction = alignment.weakest.normalized();
-    alignment.covariance += direction * direction.transpose() / kGuessInformation;
+    alignment.solution.covariance += direction * direction.transpose() / kGuessInformation;
   }
   const Matrix6d to_world = adjoint(view.T_W_D);
-  result.covariance = to_world * alignment.covariance * to_world.transpose();
+  const IcpSolution& solution = alignment.solution;
+  result.covariance = to_world * solution.covariance * to_world.transpose();
+  result.covariance_of_prior = to_world * solution.covariance_of_prior * to_world.transpose();
+  result.share_of_prior = to_world * solution.share_of_prior * adjoint(view.T_W_D.inverse());
   if (is_found)
     result.status = result.reason.empty() ? TrackingStatus::kTracking : TrackingStatus::kDegenerate;
   return result;

@@ -14,6 +14,7 @@ constexpr char kStart[] = "start";
 constexpr char kWhereExpected[] =
     "; it begins where the sensor is expected, which nothing measures: poses of before are of another world";
 constexpr int kAllDirections = 6;
+constexpr double kOfStart = 1e-10;  // variance of the frame by which the world is defined
 constexpr char kGuessed[] = "; nothing measures that, and the pose stays where it was expected";
 constexpr int kFramesAtGiven = 10;  // in which the sensor is searched for at a pose that was given
 
@@ -27,6 +28,12 @@ bool isFarFrom(const Pose& T_W_view, const MotionPrior& prior) {
   constexpr double kFar_m = 0.4, kFar_rad = 0.4;
   const Pose motion = T_W_view.inverse() * prior.T_W_D;
   return prior.covariance && (motion.translation().norm() > kFar_m || rotationAngle(motion) > kFar_rad);
+}
+
+std::vector<Pose> posesOf(const Keyframes& keyframes) {
+  std::vector<Pose> poses;
+  for (const KeyframePtr& keyframe : keyframes) poses.push_back(keyframe->T_W_D);
+  return poses;
 }
 
 std::string guessedTooLong(const GuessedMotion& motion) {
@@ -46,6 +53,7 @@ TrackingSession::TrackingSession(ComputeContext& compute, const PipelineParamete
       render_(std::move(render)),
       preprocessor_(compute, parameters.preprocessing, camera, parameters.depth_sensor),
       tracker_(compute, parameters.icp_tracking, camera),
+      drift_(parameters.drift),
       relocaliser_(parameters.relocalisation),
       matcher_(parameters.texture_odometry, parameters.depth_sensor),
       older_(compute) {}
@@ -54,6 +62,7 @@ void TrackingSession::setParameters(const PipelineParameters& parameters) {
   preprocessor_.setParameters(parameters.preprocessing, parameters.depth_sensor);
   tracker_.setParameters(parameters.icp_tracking);
   tracker_.reset();  // what is usual was so by the parameters before
+  drift_.setParameters(parameters.drift);
   relocaliser_.setParameters(parameters.relocalisation);
   matcher_.setParameters(parameters.texture_odometry, parameters.depth_sensor);
   parameters_ = parameters;
@@ -103,10 +112,16 @@ void TrackingSession::take(double stamp_s, FrameFeatures features, TrackingResul
     }
   }
   given_.reset();
-  found_ = {stamp_s, std::move(features), result, std::move(unless_fused)};
+  const Matrix6d carried = result.share_of_prior * carried_ * result.share_of_prior.transpose();
+  result.covariance += carried;
+  if (result.prior != kStart) result.covariance += drift_.ofFrame(result.T_W_D);
+  result.drift = drift_.at(result.T_W_D, result.covariance);
+  found_ = {stamp_s, std::move(features), result, std::move(unless_fused),
+            carried + result.covariance_of_prior};
   if (result.prior == kStart && !begins_anew_for_.empty()) {
     result.status = TrackingStatus::kDegenerate;
     result.guessed_directions = kAllDirections;
+    result.covariance = Matrix6d::Identity();
     result.reason += kWhereExpected;
   }
 }
@@ -130,6 +145,8 @@ void TrackingSession::conclude(bool fused) {
   if (fused) {
     check(found_.has_value(), "TrackingSession: no frame is to be concluded");
     relocaliser_.add(found_->stamp_s, found_->features, found_->result.T_W_D);
+    carried_ = found_->carried;
+    if (drift_.add(found_->result.T_W_D, found_->result.covariance, carried_)) carried_.setZero();
     tracker_.accept(found_->result);
     const bool begins_map = found_->result.prior == kStart;
     begins_map ? young_map_.begin() : growMap();
@@ -164,6 +181,8 @@ void TrackingSession::reset(const Pose& T_W_D, Keyframes keyframes) {
   lose();
   motion_.loseAt(T_W_D);
   given_.reset();
+  drift_.reset(posesOf(keyframes));
+  carried_.setZero();
   relocaliser_.reset(std::move(keyframes));
   tracker_.reset();
   young_map_.forget();
@@ -184,6 +203,8 @@ void TrackingSession::searchAt(const Pose& T_W_D) {
 
 void TrackingSession::beginAnew() {
   begins_anew_for_ = young_map_.reason();
+  drift_.reset();
+  carried_.setZero();
   relocaliser_.reset();
   tracker_.reset();
   young_map_.forget();
@@ -204,6 +225,7 @@ TrackingResult TrackingSession::begin(const RgbdFrame& frame, const Pose& T_W_D)
     first.status = TrackingStatus::kTracking;
     first.reason = begins_anew_for_;
     first.T_W_D = T_W_D;
+    first.covariance = kOfStart * Matrix6d::Identity();
   }
   return first;
 }

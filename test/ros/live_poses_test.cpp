@@ -17,7 +17,7 @@ TEST_F(LivePoses, PosesGoOutAsMessagesAndOverTf) {
   graph_.handle().setParam("icp_tracking/map_frame", "map_poses");
   tf2_ros::Buffer buffer;
   const tf2_ros::TransformListener listener(buffer);
-  Listener<nav_msgs::Odometry> odometry(graph_.handle(), "texture_odometry/odometry");
+  Listener<nav_msgs::Odometry> odometry(graph_.handle(), "icp_tracking/odometry");
   loadTracking();
   const std::vector<RgbdFrame> frames = simulatedFrames(smallRoom(25));
   fuseAll(frames);
@@ -39,7 +39,14 @@ TEST_F(LivePoses, PosesGoOutAsMessagesAndOverTf) {
   const Pose motion = frames.front().T_W_D->inverse() * *frames.back().T_W_D;
   expectPose(T_map_first.inverse() * fromMessage(pose->pose.pose), motion);
   ASSERT_TRUE(odometry.awaitCount(frames.size() - 1));
-  expectPose(fromMessage(odometry.all().back()->pose.pose), motion, 0.05, 0.03);
+  const nav_msgs::Odometry& last = *odometry.all().back();
+  EXPECT_EQ(last.child_frame_id, "camera_rgb_optical_frame");
+  expectPose(fromMessage(last.pose.pose), motion);
+  EXPECT_GT(last.pose.covariance[0], 0.0);
+  ASSERT_TRUE(eventually([&] { return buffer.canTransform("map_poses", last.header.frame_id, stamp); }));
+  expectPose(fromMessage(buffer.lookupTransform("map_poses", last.header.frame_id, stamp).transform) *
+                 fromMessage(last.pose.pose),
+             fromMessage(pose->pose.pose), 1e-9, 1e-7);
   Listener<nav_msgs::Path> path(graph_.handle(), "icp_tracking/path");  // late
   ASSERT_TRUE(path.awaitCount(1));
   EXPECT_EQ(path.all().back()->header.frame_id, "map_poses");

@@ -26,8 +26,15 @@ struct TrackingResult {
   TrackingStatus status = TrackingStatus::kLost;
   std::string
       reason;  // why tracking is lost, which directions are free, or why a map begins anew; else empty
-  Pose T_W_D = Pose::Identity();               // valid unless lost
-  Matrix6d covariance = Matrix6d::Identity();  // of the twist applied to T_W_D on the left
+  Pose T_W_D = Pose::Identity();  // valid unless lost
+  // Of the twist applied to T_W_D on the left: how the frame lies to the map that it sees ...
+  Matrix6d covariance = Matrix6d::Identity();
+  // ... and how that part of the map lies to where the map begins.
+  Matrix6d drift = Matrix6d::Zero();
+  // What the prior's own covariance leaves in `covariance`, and what stays in the pose of an error of the pose
+  // that the prior goes out from: nearly nothing, but along directions that geometry leaves free all of it.
+  Matrix6d covariance_of_prior = Matrix6d::Zero();
+  Matrix6d share_of_prior = Matrix6d::Zero();
   std::string prior;  // the origin of the prior that tracking began with; empty if the frame was not tracked
   // How far depth alone is from the prior, in standard deviations of both (Mahalanobis, divided by the root
   // of the number of directions that depth constrains); 0 for a prior without a covariance.

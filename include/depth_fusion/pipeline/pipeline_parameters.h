@@ -7,6 +7,7 @@
 #include "depth_fusion/loops/loop_parameters.h"
 #include "depth_fusion/map/map_parameters.h"
 #include "depth_fusion/model_view/model_view_parameters.h"
+#include "depth_fusion/pipeline/drift_parameters.h"
 #include "depth_fusion/preprocessing/preprocessing_parameters.h"
 #include "depth_fusion/registration/registration_parameters.h"
 #include "depth_fusion/relocalisation/relocalisation_parameters.h"
@@ -26,6 +27,7 @@ struct PipelineParameters {
   PreprocessingParameters preprocessing;
   TextureOdometryParameters texture_odometry;
   IcpTrackingParameters icp_tracking;
+  DriftParameters drift;
   RelocalisationParameters relocalisation;
   RobotMotionParameters robot_motion;
   LoopParameters loops;

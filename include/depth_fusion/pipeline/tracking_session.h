@@ -9,6 +9,7 @@
 #include "depth_fusion/frames/textured_frame.h"
 #include "depth_fusion/pipeline/guessed_motion.h"
 #include "depth_fusion/pipeline/hypothesis_tracker.h"
+#include "depth_fusion/pipeline/map_drift.h"
 #include "depth_fusion/pipeline/map_watch.h"
 #include "depth_fusion/pipeline/motion_model.h"
 #include "depth_fusion/pipeline/older_view.h"
@@ -90,6 +91,7 @@ class TrackingSession {
     FrameFeatures features;
     TrackingResult result;
     MotionModel unless_fused;
+    Matrix6d carried;  // by the pose, from priors
   };
 
   MotionPrior takePrepared(const RgbdFrame& frame);
@@ -129,6 +131,8 @@ class TrackingSession {
   RenderView render_;
   DepthPreprocessor preprocessor_;
   HypothesisTracker tracker_;
+  MapDrift drift_;
+  Matrix6d carried_ = Matrix6d::Zero();  // what priors leave in the last pose that is not in the drift
   Relocaliser relocaliser_;
   TextureOdometry matcher_;  // of frames to keyframes
   MotionModel motion_;

@@ -8,6 +8,19 @@
 #include "depth_fusion/common/error.h"
 
 namespace depth_fusion {
+namespace {
+
+// A covariance in ROS's order.
+boost::array<double, 36> translationFirst(const Matrix6d& covariance) {
+  boost::array<double, 36> values;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column)
+      values[static_cast<size_t>(6 * row + column)] = covariance((row + 3) % 6, (column + 3) % 6);
+  }
+  return values;
+}
+
+}  // namespace
 
 std::string withoutSlash(const std::string& frame) {
   return frame.empty() || frame[0] != '/' ? frame : frame.substr(1);
@@ -93,10 +106,19 @@ geometry_msgs::PoseWithCovariance toMessage(const Pose& pose, const Matrix6d& co
   const Matrix6d about_pose = shift * covariance * shift.transpose();
   geometry_msgs::PoseWithCovariance message;
   message.pose = toMessage(pose);
-  for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column < 6; ++column)
-      message.covariance[6 * row + column] = about_pose((row + 3) % 6, (column + 3) % 6);
-  }
+  message.covariance = translationFirst(about_pose);
+  return message;
+}
+
+geometry_msgs::TwistWithCovariance toMessage(const Vector6d& velocity, const Matrix6d& covariance) {
+  geometry_msgs::TwistWithCovariance message;
+  message.twist.angular.x = velocity[0];
+  message.twist.angular.y = velocity[1];
+  message.twist.angular.z = velocity[2];
+  message.twist.linear.x = velocity[3];
+  message.twist.linear.y = velocity[4];
+  message.twist.linear.z = velocity[5];
+  message.covariance = translationFirst(covariance);
   return message;
 }
 

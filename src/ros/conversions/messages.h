@@ -4,6 +4,7 @@
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/PoseWithCovariance.h>
 #include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/TwistWithCovariance.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
@@ -47,6 +48,8 @@ geometry_msgs::Pose toMessage(const Pose& pose);
 // `covariance` is that of the twist (rotation, translation) applied to the pose on the left; the message has
 // it in ROS's order, translation first.
 geometry_msgs::PoseWithCovariance toMessage(const Pose& pose, const Matrix6d& covariance);
+// The same of a velocity (rotation, rad/s; translation, m/s).
+geometry_msgs::TwistWithCovariance toMessage(const Vector6d& velocity, const Matrix6d& covariance);
 // `pose` maps points of the frame `child` into header.frame_id.
 geometry_msgs::TransformStamped makeTransform(const std_msgs::Header& header, const std::string& child,
                                               const Pose& pose);

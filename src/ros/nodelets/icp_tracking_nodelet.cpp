@@ -132,7 +132,7 @@ void IcpTrackingNodelet::publish(const SensorFrame& frame, const LiveResult& res
                                  (result.lost_for == kLost ? "LOST: " : "") + result.tracking.reason);
   } else {
     counter_.process();
-    pose_publisher_->publish(frame.header, result.tracking.T_W_D, result.tracking.covariance);
+    pose_publisher_->publish(frame.header, result.tracking);
     timers.record("icp_tracking/latency", 1e3 * status.latency_s);
   }
   status.frames = counter_.account();

@@ -16,6 +16,7 @@ std::vector<std::pair<std::string, ParameterTable>> IcpTrackingNodeletParameters
   return {{"registration", rgbd.registration.table()},
           {"depth_sensor", tracker.pipeline.depth_sensor.table()},
           {"preprocessing", tracker.pipeline.preprocessing.table()},
+          {"drift", tracker.pipeline.drift.table()},
           {"relocalisation", tracker.pipeline.relocalisation.table()},
           {"robot_motion", tracker.pipeline.robot_motion.table()}};
 }

@@ -1,10 +1,7 @@
-// Texture odometry: the motion between frames from their texture, for tracking and as nav_msgs/Odometry.
-#include <nav_msgs/Odometry.h>
-
+// Texture odometry: the motion between frames from their texture, for tracking.
 #include <pluginlib/class_list_macros.hpp>
 
 #include "depth_fusion/texture_odometry/texture_odometry.h"
-#include "ros/conversions/messages.h"
 #include "ros/in_process/worker.h"
 #include "ros/input/rgbd_subscriber.h"
 #include "ros/nodelets/stage_nodelet.h"
@@ -26,21 +23,18 @@ class TextureOdometryNodelet : public StageNodelet {
   void betweenFrames(const std::function<void()>& action) override { worker_->between(action); }
   void process(const RgbdMessagesPtr& messages);
   void findMotion(const SensorFramePtr& sensor);
-  void publishOdometry(const TexturedSensorFrame& frame);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
   TextureOdometryParameters parameters_;
   DepthSensorParameters depth_sensor_;
   RgbdParameters rgbd_;
-  std::string device_, odom_frame_ = "texture_odom";
+  std::string device_;
   int queue_size_ = 2;
   std::unique_ptr<TextureOdometry> odometry_;
   std::shared_ptr<const TextureOdometryParameters>
       odometry_parameters_;  // the same, for those who get the frames
   uint32_t clock_jumps_ = 0;
-  Pose T_O_D_ = Pose::Identity();  // O: the odometry's frame, the first camera's
-  Matrix6d covariance_ = Matrix6d::Zero();
-  ros::Publisher frame_publisher_, odometry_publisher_;
+  ros::Publisher frame_publisher_;
   std::mutex status_mutex_;
   std::string no_motion_;  // why the last frame has no motion
   std::unique_ptr<Worker<RgbdMessagesPtr>> worker_;
@@ -51,8 +45,6 @@ void TextureOdometryNodelet::start() {
   ParameterTable table = parameters_.table();
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
   table.push_back(deviceRow(device_));
-  table.push_back(atStartOnly(
-      text("odom_frame", &odom_frame_, "frame of the odometry: where the sensor was in the first frame")));
   table.push_back(queueSizeRow(queue_size_));
   loadParameters(table,
                  {{"registration", rgbd_.registration.table()}, {"depth_sensor", depth_sensor_.table()}});
@@ -60,7 +52,6 @@ void TextureOdometryNodelet::start() {
 
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
   frame_publisher_ = handle.advertise<TexturedFrameMessage>("frame", kProcessQueue);
-  odometry_publisher_ = handle.advertise<nav_msgs::Odometry>("odometry", 10);
   worker_ = std::make_unique<Worker<RgbdMessagesPtr>>(
       queue_size_, [this](const RgbdMessagesPtr& messages) { process(messages); },
       [this](const RgbdMessagesPtr&) { counter_.drop(kTooSlow); });
@@ -100,22 +91,7 @@ void TextureOdometryNodelet::findMotion(const SensorFramePtr& sensor) {
     const std::lock_guard<std::mutex> lock(status_mutex_);
     no_motion_ = frame->texture.motion.reason;
   }
-  publishOdometry(*frame);
   frame_publisher_.publish(makeMessage<TexturedSensorFrame>(sensor->header, frame));
-}
-
-void TextureOdometryNodelet::publishOdometry(const TexturedSensorFrame& frame) {
-  const TextureOdometryResult& motion = frame.texture.motion;
-  if (!motion.found) return;
-  const Matrix6d to_odom = adjoint(T_O_D_);
-  covariance_ += to_odom * motion.covariance * to_odom.transpose();
-  T_O_D_ = orthonormalized(T_O_D_ * motion.T_previous_current);
-  if (odometry_publisher_.getNumSubscribers() == 0) return;
-  auto odometry = boost::make_shared<nav_msgs::Odometry>();
-  odometry->header = makeHeader(frame.sensor->header.stamp, odom_frame_);
-  odometry->child_frame_id = frame.sensor->header.frame_id;
-  odometry->pose = toMessage(T_O_D_, covariance_);
-  odometry_publisher_.publish(odometry);
 }
 
 void TextureOdometryNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

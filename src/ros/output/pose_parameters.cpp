@@ -10,6 +10,9 @@ ParameterTable PoseParameters::table() {
             "child of map_frame on tf, where the robot has odometry; empty: base_frame, or the root of the "
             "camera's tree"),
        text("base_frame", &base_frame, "child of map_frame on tf, where the robot has no odometry"),
+       text("visual_odom_frame", &visual_odom_frame,
+            "child of map_frame on tf: frame of icp_tracking/odometry, where the robot's base was at the "
+            "start; it moves where closed loops move the map"),
        text("view_frame", &view_frame,
             "a frame on tf that follows the camera and stays level, for the view of rviz; empty: none"),
        flag("level_start", &level_start,

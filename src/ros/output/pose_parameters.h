@@ -12,6 +12,7 @@ struct PoseParameters {
   std::string map_frame = "map";
   std::string odom_frame;
   std::string base_frame;
+  std::string visual_odom_frame = "visual_odom";
   std::string view_frame;  // empty: none
   bool level_start = true;
   float transform_tolerance_s = 0.1f;

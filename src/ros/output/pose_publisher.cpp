@@ -23,6 +23,7 @@ PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_han
                              const PoseParameters& parameters)
     : map_frame_(parameters.map_frame),
       transforms_(handle, parameters),
+      odometry_(private_handle, parameters, transforms_),
       viewer_aids_(private_handle, parameters.map_frame, parameters.view_frame) {
   pose_publisher_ = private_handle.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
   path_publisher_ = private_handle.advertise<nav_msgs::Path>(
@@ -32,11 +33,12 @@ PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_han
       });
 }
 
-void PosePublisher::publish(const std_msgs::Header& camera, const Pose& T_map_camera,
-                            const Matrix6d& covariance) {
+void PosePublisher::publish(const std_msgs::Header& camera, const TrackingResult& tracked) {
+  const Pose& T_map_camera = tracked.T_W_D;
   transforms_.take(camera, T_map_camera);
+  odometry_.publish(camera, tracked);
   viewer_aids_.showTracked(camera.stamp, T_map_camera);
-  publishMessage(camera, T_map_camera, covariance);
+  publishMessage(camera, T_map_camera, tracked.covariance + tracked.drift);
   addToPath(makeHeader(camera.stamp, map_frame_), T_map_camera);
 }
 
@@ -56,6 +58,7 @@ void PosePublisher::publishMessage(const std_msgs::Header& camera, const Pose& T
 
 void PosePublisher::reset() {
   transforms_.reset();
+  odometry_.reset();
   const std::lock_guard<std::mutex> lock(path_mutex_);
   if (path_.poses.empty()) return;
   path_.poses.clear();
@@ -70,6 +73,7 @@ void PosePublisher::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status
 }
 
 void PosePublisher::correct(const Corrections& corrections) {
+  odometry_.correct(corrections);
   const std::lock_guard<std::mutex> lock(path_mutex_);
   for (geometry_msgs::PoseStamped& pose : path_.poses)
     pose.pose = toMessage(corrections.corrected({pose.header.stamp.toSec(), fromMessage(pose.pose)}));

@@ -1,4 +1,4 @@
-// The tracker's poses for the rest of the robot: tf2 (REP 105), PoseWithCovarianceStamped, Path.
+// The tracker's poses for the rest of the robot: tf2 (REP 105), PoseWithCovarianceStamped, Odometry, Path.
 #pragma once
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
@@ -12,6 +12,7 @@
 
 #include "depth_fusion/frames/motion_prior.h"
 #include "depth_fusion/loops/corrections.h"
+#include "ros/output/odometry_publisher.h"
 #include "ros/output/pose_parameters.h"
 #include "ros/output/transform_sender.h"
 #include "ros/output/viewer_aids.h"
@@ -28,7 +29,7 @@ class PosePublisher {
     return transforms_.startPose(camera, up_camera);
   }
   const TransformSender& transforms() const { return transforms_; }
-  void publish(const std_msgs::Header& camera, const Pose& T_map_camera, const Matrix6d& covariance);
+  void publish(const std_msgs::Header& camera, const TrackingResult& tracked);
   // Shows that text where the camera was last, until the next pose. Where something else measures its motion,
   // that pose goes out as a message only: odometry on tf moves on by itself.
   void publishLost(const std_msgs::Header& camera, const std::optional<MotionPrior>& bridged,
@@ -48,6 +49,7 @@ class PosePublisher {
 
   const std::string map_frame_;
   TransformSender transforms_;
+  OdometryPublisher odometry_;
   ViewerAids viewer_aids_;
   std::mutex path_mutex_;  // of the path, which late viewers get whole
   nav_msgs::Path path_;

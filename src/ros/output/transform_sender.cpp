@@ -51,13 +51,18 @@ Pose TransformSender::startPose(const std_msgs::Header& camera,
   return levelPose(up_camera.value_or(kCameraUp));
 }
 
-std::optional<Pose> TransformSender::cameraOnBase(const std::string& camera_frame) const {
+std::optional<TransformSender::Body> TransformSender::baseOf(const std::string& camera_frame) const {
   for (const std::string& base :
        {parameters_.base_frame, std::string("base_link"), std::string("base_footprint")}) {
     if (base.empty()) continue;
-    if (const auto placed = tree_.newest(base, camera_frame)) return placed->T_frame_camera;
+    if (const auto placed = tree_.newest(base, camera_frame)) return Body{base, placed->T_frame_camera};
   }
   return std::nullopt;
+}
+
+std::optional<Pose> TransformSender::cameraOnBase(const std::string& camera_frame) const {
+  const std::optional<Body> base = baseOf(camera_frame);
+  return base ? std::optional<Pose>(base->T_body_camera) : std::nullopt;
 }
 
 std::optional<Pose> TransformSender::cameraIn(const std::string& frame,
@@ -74,6 +79,13 @@ std::optional<OdometryReading> TransformSender::odometry(const std_msgs::Header&
   const auto newest = tree_.newest(root_.frame, camera.frame_id);
   if (!newest || newest->stamp.isZero()) return std::nullopt;
   return OdometryReading{newest->stamp.toSec(), newest->T_frame_camera};
+}
+
+TransformSender::Body TransformSender::bodyOf(const std::string& camera_frame) const {
+  if (const std::optional<Body> base = baseOf(camera_frame)) return *base;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!moves_ && mounting_) return {root_.frame, *mounting_};
+  return {camera_frame, Pose::Identity()};
 }
 
 bool TransformSender::hasRoot() const {
@@ -114,7 +126,7 @@ void TransformSender::take(const std_msgs::Header& camera, const Pose& T_map_cam
   last_taken_ = ros::Time::now();
   const auto placed = tree_.newest(root_.frame, camera.frame_id);
   if (placed && !movesInRoot(placed->T_frame_camera))
-    return send(camera.stamp, T_map_camera * placed->T_frame_camera.inverse());
+    return send(camera.stamp, root_.frame, T_map_camera * placed->T_frame_camera.inverse());
   has_other_clock_ = placed && isOtherClock(placed->stamp);
   if (has_other_clock_) {
     waiting_.clear();
@@ -152,7 +164,7 @@ void TransformSender::sendAhead() {
   const bool clock_went_back = secondsBetween(stamp, last_sent_) > 1.0;
   if (stamp <= last_sent_ && !clock_went_back) return;  // a simulated clock stands still
   last_sent_ = stamp;
-  send(stamp, *T_map_root_);
+  send(stamp, root_.frame, *T_map_root_);
 }
 
 void TransformSender::useNewestOdometry() {
@@ -173,9 +185,13 @@ void TransformSender::useNewestOdometry() {
     T_map_root_ = last_->T_map_camera * odometry_->T_frame_camera.inverse();
 }
 
-void TransformSender::send(const ros::Time& stamp, const Pose& T_map_root) {
-  broadcaster_.sendTransform(
-      makeTransform(makeHeader(stamp, parameters_.map_frame), root_.frame, T_map_root));
+void TransformSender::sendLeaf(const ros::Time& stamp, const std::string& frame, const Pose& T_map_frame) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (parameters_.publish_tf && !root_.in_map) send(stamp, frame, T_map_frame);
+}
+
+void TransformSender::send(const ros::Time& stamp, const std::string& child, const Pose& T_map_child) {
+  broadcaster_.sendTransform(makeTransform(makeHeader(stamp, parameters_.map_frame), child, T_map_child));
 }
 
 ros::Time TransformSender::robotTime() const {

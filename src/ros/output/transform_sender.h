@@ -40,7 +40,16 @@ class TransformSender {
   std::optional<OdometryReading> odometry(const std_msgs::Header& camera) const;
   // Returns T_frame_camera as tf last had it.
   std::optional<Pose> cameraIn(const std::string& frame, const std::string& camera_frame) const;
+  // What the camera is mounted on: the base if there is one, else the root of its tree if it does not move in
+  // that, else the camera itself.
+  struct Body {
+    std::string frame;
+    Pose T_body_camera;
+  };
+  Body bodyOf(const std::string& camera_frame) const;
   void take(const std_msgs::Header& camera, const Pose& T_map_camera);
+  // Sends map_frame -> a frame that nothing else hangs on.
+  void sendLeaf(const ros::Time& stamp, const std::string& frame, const Pose& T_map_frame);
   // Forgets the poses, which belong to another map.
   void reset();
 
@@ -53,6 +62,7 @@ class TransformSender {
     Pose T_map_camera;
   };
 
+  std::optional<Body> baseOf(const std::string& camera_frame) const;
   bool hasRoot() const;
   // These expect the mutex to be held:
   void followRoot(const std::string& camera_frame);
@@ -62,7 +72,7 @@ class TransformSender {
   // Whether the images' stamps are not of ROS time, while odometry's are, or were as long as it lived.
   bool isOtherClock(const ros::Time& odometry) const;
   void useNewestOdometry();
-  void send(const ros::Time& stamp, const Pose& T_map_root);
+  void send(const ros::Time& stamp, const std::string& child, const Pose& T_map_child);
   // What time it is by the clock that odometry has, too.
   ros::Time robotTime() const;
   // How old the last image was when its pose came.
