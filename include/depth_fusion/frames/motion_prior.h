@@ -13,7 +13,8 @@ struct MotionPrior {
   // The covariance is that of the twist (rotation, translation) applied to T_W_D on the left; a guess without
   // a measurement has none.
   std::optional<Matrix6d> covariance;
-  std::string origin;  // what says so: "texture", "last pose", "constant velocity", "search", "start"
+  std::string
+      origin;  // what says so: "texture", "last pose", "constant velocity", "search", "start", "part start"
 };
 
 // Tracking from either comes to the same.

@@ -3,8 +3,10 @@
 #include <depth_fusion/LoopStatus.h>
 #include <ros/console.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "depth_fusion/common/error.h"
@@ -41,6 +43,18 @@ Keyframes movedBy(const Corrections& corrections, const Keyframes& keyframes) {
   return moved;
 }
 
+// The keyframes' numbers from that one on, part by part, those of the last keyframe's part in the end.
+std::vector<uint32_t> partByPart(const std::vector<CorrectedKeyframe>& keyframes, size_t first) {
+  std::vector<uint32_t> numbers(keyframes.size() - first);
+  std::iota(numbers.begin(), numbers.end(), static_cast<uint32_t>(first));
+  const auto turn = [&](uint32_t number) {
+    const uint32_t part = keyframes[number].part;
+    return std::make_pair(part == keyframes.back().part, part);
+  };
+  std::stable_sort(numbers.begin(), numbers.end(), [&](uint32_t a, uint32_t b) { return turn(a) < turn(b); });
+  return numbers;
+}
+
 }  // namespace
 
 MapRefiner::MapRefiner(std::shared_ptr<SharedMap> map, FrameMapper& mapper,
@@ -75,7 +89,8 @@ void MapRefiner::look() {
   const double move_m = loops_->corrections().largestMove_m();
   const bool rests = std::abs(move_m - std::exchange(seen_move_m_, move_m)) < kStill_m;
   const bool failed = failed_move_m_ && std::abs(move_m - *failed_move_m_) < kStill_m;
-  if (!rests || failed || move_m <= static_cast<double>(loops_parameters_.least_move_m)) return;
+  const bool moves = move_m > static_cast<double>(loops_parameters_.least_move_m) || loops_->joinsParts();
+  if (!rests || failed || !moves) return;
   try {
     replace();
     failed_move_m_.reset();
@@ -145,6 +160,7 @@ PipelineParameters MapRefiner::parametersNow() const {
 Corrections MapRefiner::fuse(MapRefinement& refinement) {
   std::vector<CorrectedKeyframe> fused;
   size_t cleared = 0;
+  uint32_t part = 0;
   const auto clearUntil = [&](double stamp_s) {
     const auto clearings = map_->locked([](FusedMap& map) { return map.clearings(); });
     for (; cleared < clearings.size() && clearings[cleared].first < stamp_s; ++cleared) {
@@ -155,11 +171,14 @@ Corrections MapRefiner::fuse(MapRefinement& refinement) {
   while (true) {
     const std::vector<CorrectedKeyframe> known = loops_->keyframes().keyframes();
     if (known.size() == fused.size()) break;
-    for (size_t i = fused.size(); i < known.size(); ++i) {
-      clearUntil(known[i].stamp_s);
-      refinement.fuse(*loops_->keyframe(static_cast<uint32_t>(i)), known[i].T_W_now);
-      fused.push_back(known[i]);
+    for (const uint32_t number : partByPart(known, fused.size())) {
+      const CorrectedKeyframe& keyframe = known[number];
+      clearUntil(keyframe.stamp_s);
+      if (keyframe.part != std::exchange(part, keyframe.part))
+        check(refinement.submaps().beginPart(), refinement.submaps().problem());
+      refinement.fuse(*loops_->keyframe(number), keyframe.T_W_now);
     }
+    fused = known;
   }
   clearUntil(std::numeric_limits<double>::infinity());
   return Corrections(std::move(fused));
