@@ -124,7 +124,7 @@ TEST_F(Resets, LeaveNothingOfFramesThatWaitForTheMap) {
     frame_.map_generation = generationOf(*map);
     std::thread resetting;
     const ros::Time stamp = map->locked([&](FusedMap&) {
-      const ros::Time sent = send(ros::WallTime::now(), true);
+      const ros::Time sent = send(ros::WallTime::now(), Beginning::kMap);
       ros::WallDuration(0.1).sleep();
       resetting = std::thread([this] { resetVolume(); });
       ros::WallDuration(0.1).sleep();

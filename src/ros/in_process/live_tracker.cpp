@@ -7,7 +7,6 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/sensor_noise.h"
 #include "ros/conversions/status_messages.h"
-#include "ros/in_process/shared_map.h"
 
 namespace depth_fusion {
 namespace {

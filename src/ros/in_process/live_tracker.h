@@ -13,6 +13,7 @@
 #include "depth_fusion/pipeline/tracking_session.h"
 #include "ros/in_process/fusion_link.h"
 #include "ros/in_process/live_tracker_parameters.h"
+#include "ros/in_process/shared_map.h"
 #include "ros/in_process/skipped_frames.h"
 
 namespace depth_fusion {

@@ -171,14 +171,15 @@ Corrections MapRefiner::fuse(MapRefinement& refinement) {
   while (true) {
     const std::vector<CorrectedKeyframe> known = loops_->keyframes().keyframes();
     if (known.size() == fused.size()) break;
-    for (const uint32_t number : partByPart(known, fused.size())) {
-      const CorrectedKeyframe& keyframe = known[number];
+    const size_t fused_before = fused.size();
+    fused.insert(fused.end(), known.begin() + static_cast<std::ptrdiff_t>(fused_before), known.end());
+    for (const uint32_t number : partByPart(fused, fused_before)) {
+      const CorrectedKeyframe& keyframe = fused[number];
       clearUntil(keyframe.stamp_s);
       if (keyframe.part != std::exchange(part, keyframe.part))
         check(refinement.submaps().beginPart(), refinement.submaps().problem());
       refinement.fuse(*loops_->keyframe(number), keyframe.T_W_now);
     }
-    fused = known;
   }
   clearUntil(std::numeric_limits<double>::infinity());
   return Corrections(std::move(fused));
