@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/pipeline/map_refinement.h"
 #include "ros/conversions/messages.h"
 
@@ -185,11 +186,22 @@ Corrections MapRefiner::fuse(MapRefinement& refinement) {
   return Corrections(std::move(fused));
 }
 
+void MapRefiner::fuseLastView(MapRefinement& refinement, const Corrections& corrections) {
+  const auto [view, last_pose] =
+      map_->locked([this](FusedMap&) { return std::make_pair(mapper_.view(), mapper_.lastPose()); });
+  if (view == nullptr) return;
+  Keyframe last;
+  last.view =
+      KeyframeView(readImage(view->depth, view->camera), view->camera, loops_parameters_.view_width_px);
+  refinement.fuse(last, corrections.corrected(last_pose));
+}
+
 Corrections MapRefiner::replace() {
   const std::shared_ptr<Database> scratch = openScratch(mapper_.parameters().submaps.store);
   auto refinement = std::make_unique<MapRefinement>(*queue_, parametersNow());
   const Corrections corrections = fuse(*refinement);
   check(!refinement->submaps().isEmpty(), "no keyframe shows anything yet; the map stays as it is");
+  fuseLastView(*refinement, corrections);
   MapSaver saver(scratch);
   refinement->save(saver, mapper_.camera(), {}, {});
   refinement.reset();  // its memory is needed
