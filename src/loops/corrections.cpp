@@ -19,17 +19,31 @@ Corrections::Corrections(std::vector<CorrectedKeyframe> keyframes)
                    [this](size_t a, size_t b) { return keyframes_[a].stamp_s < keyframes_[b].stamp_s; });
 }
 
+std::pair<const CorrectedKeyframe*, const CorrectedKeyframe*> Corrections::about(double stamp_s) const {
+  const auto next =
+      std::upper_bound(by_time_.begin(), by_time_.end(), stamp_s,
+                       [this](double stamp, size_t i) { return stamp < keyframes_[i].stamp_s; });
+  if (next == by_time_.begin()) return {&keyframes_[*next], nullptr};
+  return {&keyframes_[*(next - 1)], next == by_time_.end() ? nullptr : &keyframes_[*next]};
+}
+
 Pose Corrections::corrected(const StampedPose& tracked) const {
   if (keyframes_.empty()) return tracked.T_W_D;
-  const auto next =
-      std::upper_bound(by_time_.begin(), by_time_.end(), tracked.stamp_s,
-                       [this](double stamp_s, size_t i) { return stamp_s < keyframes_[i].stamp_s; });
-  const CorrectedKeyframe& before = keyframes_[next == by_time_.begin() ? *next : *(next - 1)];
-  const Pose by_before = carried(before, tracked.T_W_D);
-  if (next == by_time_.begin() || next == by_time_.end()) return by_before;
-  const CorrectedKeyframe& after = keyframes_[*next];
-  return interpolate({before.stamp_s, by_before}, {after.stamp_s, carried(after, tracked.T_W_D)},
+  const auto [before, after] = about(tracked.stamp_s);
+  const Pose by_before = carried(*before, tracked.T_W_D);
+  if (after == nullptr || after->stretch != before->stretch) return by_before;
+  return interpolate({before->stamp_s, by_before}, {after->stamp_s, carried(*after, tracked.T_W_D)},
                      tracked.stamp_s);
+}
+
+uint32_t Corrections::partAt(double stamp_s) const {
+  return keyframes_.empty() ? 0 : about(stamp_s).first->part;
+}
+
+bool Corrections::isApart() const {
+  return std::any_of(keyframes_.begin(), keyframes_.end(), [this](const CorrectedKeyframe& keyframe) {
+    return keyframe.part != keyframes_.back().part;
+  });
 }
 
 double Corrections::largestMove_m() const {

@@ -66,7 +66,8 @@ LoopReport LoopCloser::add(KeyframePtr keyframe, const std::optional<KeyframeMot
     const double way_m = std::max(0.0, added.way_m - known_.back().way_m);
     graph_.addWay(report.number - 1, report.number, motion->T_previous_current, way_m, motion->covariance);
   }
-  known_.push_back({load_ ? nullptr : keyframe, added.stamp_s, added.way_m, added.T_W_D});
+  const uint32_t stretch = motion ? known_.back().stretch : report.number;
+  known_.push_back({load_ ? nullptr : keyframe, added.stamp_s, added.way_m, added.T_W_D, stretch});
   if (!added.features.reason.empty()) return report;
 
   const Stopwatch finding;
@@ -210,9 +211,12 @@ void LoopCloser::setVerdict(uint32_t closure, LoopVerdict verdict, LoopReport& r
 }
 
 Corrections LoopCloser::corrections() const {
+  const std::vector<uint32_t> parts = graph_.parts();
   std::vector<CorrectedKeyframe> keyframes;
-  for (uint32_t number = 0; number < known_.size(); ++number)
-    keyframes.push_back({known_[number].stamp_s, known_[number].T_W_then, graph_.pose(number)});
+  for (uint32_t number = 0; number < known_.size(); ++number) {
+    const Known& known = known_[number];
+    keyframes.push_back({known.stamp_s, known.T_W_then, graph_.pose(number), known.stretch, parts[number]});
+  }
   return Corrections(std::move(keyframes));
 }
 

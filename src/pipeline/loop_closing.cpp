@@ -112,8 +112,11 @@ uint32_t LoopClosing::adopt(const Corrections& applied) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (moved.empty()) return world_;
   const Pose T_new_old = orthonormalized(moved.back().T_W_now * moved.back().T_W_then.inverse());
-  for (size_t i = 0; i < known_.size(); ++i)
+  joins_parts_ = false;
+  for (size_t i = 0; i < known_.size(); ++i) {
     known_[i].T_W_then = i < moved.size() ? moved[i].T_W_now : T_new_old * known_[i].T_W_then;
+    joins_parts_ = joins_parts_ || (i < moved.size() && moved[i].part != known_[i].part);
+  }
   for (Waiting& waiting : waiting_) waiting.T_W_then = T_new_old * waiting.T_W_then;
   for (std::optional<Pose>* last_W : {&last_W_, &last_keyframe_W_, &last_view_W_}) {
     if (*last_W) *last_W = T_new_old * **last_W;
@@ -141,6 +144,11 @@ Corrections LoopClosing::keyframes() const {
 Corrections LoopClosing::corrections() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return is_moved_ ? Corrections(known_) : Corrections();
+}
+
+bool LoopClosing::joinsParts() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return joins_parts_;
 }
 
 std::string LoopClosing::problem() const {
@@ -184,10 +192,21 @@ void LoopClosing::compare(LoopCloser& closer, Waiting& added, LoopReport& report
 
 void LoopClosing::note(const LoopCloser& closer, const LoopReport& report) {
   candidates_.insert(candidates_.end(), report.candidates.begin(), report.candidates.end());
-  known_.push_back(
-      {waiting_.front().keyframe->stamp_s, waiting_.front().T_W_then, closer.pose(report.number)});
+  const Waiting& added = waiting_.front();
+  CorrectedKeyframe known{added.keyframe->stamp_s, added.T_W_then, closer.pose(report.number), report.number,
+                          report.number};
+  if (added.motion) {
+    known.stretch = known_.back().stretch;
+    known.part = known_.back().part;
+  }
+  known_.push_back(known);
   if (!report.poses_changed) return;
-  for (uint32_t number = 0; number < known_.size(); ++number) known_[number].T_W_now = closer.pose(number);
+  const std::vector<CorrectedKeyframe> now = closer.corrections().keyframes();
+  for (size_t i = 0; i < known_.size(); ++i) {
+    known_[i].T_W_now = now[i].T_W_now;
+    joins_parts_ = joins_parts_ || now[i].part != known_[i].part;
+    known_[i].part = now[i].part;
+  }
   is_moved_ = true;
 }
 

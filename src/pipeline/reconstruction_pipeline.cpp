@@ -28,6 +28,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   TexturedFrame texture = ahead_.textureOf(frame, timers_);
   ahead_.announce(next);
   if (session_.givesUpMap()) beginAnew();
+  if (loops_ && session_.isLostForLong()) beginPart();
   const Pose start = startPose(texture.robot.attitude);
   result.tracking = session_.step(frame, std::move(texture), view_, timers_, start);
   if (result.tracking.status != TrackingStatus::kLost) robot_.learn(frame.stamp_s, result.tracking.T_W_D);
@@ -78,6 +79,13 @@ void ReconstructionPipeline::beginAnew() {
   session_.beginAnew();
   if (loops_) loops_->beginAnew();
   map_.reset(Eigen::Vector3d::Zero());
+  view_ = nullptr;
+}
+
+void ReconstructionPipeline::beginPart() {
+  if (!submaps_.beginPart()) return;
+  session_.beginPart();
+  loops_->beginAnew();
   view_ = nullptr;
 }
 

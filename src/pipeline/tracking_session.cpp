@@ -10,7 +10,8 @@
 namespace depth_fusion {
 namespace {
 
-constexpr char kStart[] = "start";
+constexpr char kStart[] = "start",
+               kPartStart[] = "part start";  // priors of frames that begin a map, or a part
 constexpr char kWhereExpected[] =
     "; it begins where the sensor is expected, which nothing measures: poses of before are of another world";
 constexpr int kAllDirections = 6;
@@ -84,13 +85,14 @@ TrackingResult TrackingSession::step(const RgbdFrame& frame, TexturedFrame textu
     take(frame.stamp_s, std::move(texture.features), result);
   } else {
     motion_.lose();
+    noteLoss(frame, texture.features);
     if (guessed_.isTooFar()) guessed_.guess(frame.stamp_s, Vector6d::Zero());
     const bool is_guessed = result.guessed_directions > 0;  // it fits the map, somewhere
     if (!is_guessed && view != nullptr && pointsInRange(frame) >= parameters_.icp_tracking.min_inliers)
       young_map_.miss();
   }
   if (found_ && view != nullptr) compareWithOlder(frame.stamp_s, result.T_W_D, view, timers);
-  result.map_doubt = watch_.doubt();
+  result.map_doubt = mapDoubt();
   if (result.status == TrackingStatus::kLost) result.bridged = motion_.bridged();
   return result;
 }
@@ -112,13 +114,15 @@ void TrackingSession::take(double stamp_s, FrameFeatures features, TrackingResul
     }
   }
   given_.reset();
+  const bool begins = result.prior == kStart || result.prior == kPartStart;
   const Matrix6d carried = result.share_of_prior * carried_ * result.share_of_prior.transpose();
   result.covariance += carried;
-  if (result.prior != kStart) result.covariance += drift_.ofFrame(result.T_W_D);
+  if (!begins) result.covariance += drift_.ofFrame(result.T_W_D);
   result.drift = drift_.at(result.T_W_D, result.covariance);
+  if (!apart_.empty()) result.drift += Matrix6d::Identity();
   found_ = {stamp_s, std::move(features), result, std::move(unless_fused),
             carried + result.covariance_of_prior};
-  if (result.prior == kStart && !begins_anew_for_.empty()) {
+  if (begins && !begins_anew_for_.empty()) {
     result.status = TrackingStatus::kDegenerate;
     result.guessed_directions = kAllDirections;
     result.covariance = Matrix6d::Identity();
@@ -150,7 +154,8 @@ void TrackingSession::conclude(bool fused) {
     tracker_.accept(found_->result);
     const bool begins_map = found_->result.prior == kStart;
     begins_map ? young_map_.begin() : growMap();
-    if (begins_map) begins_anew_for_.clear();
+    if (begins_map || std::exchange(begins_part_, false)) begins_anew_for_.clear();
+    loss_.reset();
     watch_.add(found_->stamp_s, found_->result);
   } else {
     if (found_) {
@@ -181,31 +186,29 @@ void TrackingSession::reset(const Pose& T_W_D, Keyframes keyframes) {
   lose();
   motion_.loseAt(T_W_D);
   given_.reset();
+  forgetMap();
   drift_.reset(posesOf(keyframes));
-  carried_.setZero();
   relocaliser_.reset(std::move(keyframes));
-  tracker_.reset();
-  young_map_.forget();
-  guessed_ = {};
-  watch_.reset();
-  older_.forget();
   begins_anew_for_.clear();
-  is_level_.reset();
-  floor_z_m_.reset();
 }
 
 void TrackingSession::searchAt(const Pose& T_W_D) {
   lose();
   motion_.loseAt(T_W_D);
   guessed_ = {};
+  loss_.reset();
   given_ = {T_W_D, kFramesAtGiven};
 }
 
 void TrackingSession::beginAnew() {
   begins_anew_for_ = young_map_.reason();
+  relocaliser_.reset();
+  forgetMap();
+}
+
+void TrackingSession::forgetMap() {
   drift_.reset();
   carried_.setZero();
-  relocaliser_.reset();
   tracker_.reset();
   young_map_.forget();
   guessed_ = {};
@@ -213,11 +216,14 @@ void TrackingSession::beginAnew() {
   older_.forget();
   is_level_.reset();
   floor_z_m_.reset();
+  loss_.reset();
+  apart_.clear();
+  begins_part_ = false;
 }
 
 TrackingResult TrackingSession::begin(const RgbdFrame& frame, const Pose& T_W_D) const {
   TrackingResult first;
-  first.prior = kStart;
+  first.prior = begins_part_ ? kPartStart : kStart;
   const int points = pointsInRange(frame);
   if (points < parameters_.icp_tracking.min_inliers) {
     first.reason = "only " + std::to_string(points) + " points with depth in range to begin with";

@@ -1,6 +1,7 @@
 #include "depth_fusion/submaps/submap_collection.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "depth_fusion/common/error.h"
@@ -8,6 +9,12 @@
 #include "submaps/block_store.h"
 
 namespace depth_fusion {
+namespace {
+
+// On the sensor's way, where a submap of another part was left: no way from there is short enough.
+constexpr double kNeverSure_m = -std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 SubmapCollection::SubmapCollection(BlockMap& map, const SubmapParameters& parameters)
     : map_(map),
@@ -54,6 +61,23 @@ void SubmapCollection::enter(const Pose& T_W_D, bool is_given) {
   next ? activate(*next) : begin(Window::centredOn(p_W, block_m_, map_.window().blocks_per_axis));
 }
 
+bool SubmapCollection::beginPart() {
+  follow();
+  if (isEmpty()) return true;
+  std::vector<int> all;
+  for (const auto& [group, slots] : slotsOutside({BlockIndex::Zero(), 0}))
+    all.insert(all.end(), slots.begin(), slots.end());
+  if (!evict(all)) return false;
+  begin(map_.window());
+  for (uint32_t i = 0; i < submaps_.size(); ++i) {
+    if (i != active_) submaps_[i].left_at_m = kNeverSure_m;
+  }
+  leaving_.clear();
+  sensor_W_.reset();
+  listAbsent();
+  return true;
+}
+
 void SubmapCollection::begin(const Window& window) {
   submaps_.push_back({window, 0.0, {}, 0});
   activate(static_cast<uint32_t>(submaps_.size() - 1));
@@ -67,9 +91,10 @@ void SubmapCollection::activate(uint32_t submap) {
 }
 
 bool SubmapCollection::isSure(uint32_t submap) const {
+  const double left_at_m = submaps_[submap].left_at_m;
   return submap == active_ ||
-         static_cast<double>(parameters_.drift) * (way_m_ - submaps_[submap].left_at_m) <=
-             static_cast<double>(parameters_.sure_m);
+         (left_at_m != kNeverSure_m && static_cast<double>(parameters_.drift) * (way_m_ - left_at_m) <=
+                                           static_cast<double>(parameters_.sure_m));
 }
 
 std::optional<uint32_t> SubmapCollection::submapAbout(const Eigen::Vector3d& p_W) const {

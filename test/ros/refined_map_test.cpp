@@ -128,5 +128,31 @@ TEST_F(RefinedMap, IsRefusedWhereThereAreNoKeyframes) {
   EXPECT_NE(refused.message.find("close_loops"), std::string::npos) << refused.message;
 }
 
+// The sensor is carried elsewhere, unseen, and goes back to where it began: what it mapped there is joined with
+// the rest, and the robot is told where it is.
+TEST_F(RefinedMap, JoinsAPartThatALostSensorMapped) {
+  graph_.handle().setParam("relocalisation/lost_s", 0.5);
+  loadSeeking();
+  SimulationOptions way = smallRoom(200);
+  way.scene = "large_room";
+  std::vector<RgbdFrame> frames = simulatedFrames(way);
+  const std::vector<RgbdFrame> back(frames.rbegin(), frames.rend());
+  frames.resize(45);
+  for (const RgbdFrame& frame : back) {
+    frames.push_back(frame);
+    frames.back().stamp_s = frames[frames.size() - 2].stamp_s + 1.0 / way.fps;
+  }
+  for (size_t i = 0; i + 1 < frames.size(); ++i) ASSERT_NE(track(frames[i]), nullptr);
+  const auto begun =
+      tracker_status_.await([](const TrackerStatus& status) { return status.prior == "part start"; });
+  ASSERT_NE(begun, nullptr);
+  EXPECT_EQ(begun->state, TrackerStatus::DEGENERATE);
+  EXPECT_NE(begun->map_doubt.find("until a loop joins it"), std::string::npos) << begun->map_doubt;
+  const auto moved = map_status_.await([](const MapStatus& status) { return status.moved_m > 0.5; });
+  ASSERT_NE(moved, nullptr) << "no loop joined the parts";
+  expectTracked(frames.back(), frames.front());
+  EXPECT_EQ(tracker_status_.all().back()->map_doubt, "");
+}
+
 }  // namespace
 }  // namespace depth_fusion

@@ -29,13 +29,13 @@ class Resets : public LiveGraph {
     frame_ = *tracked.awaitStamp(camera_.headerOf(frames.back()).stamp)->payload;
   }
   // The frame once more, with a stamp of its own, as it is on its way when the map is reset.
-  ros::Time send(ros::WallTime received, bool begins_map) {
+  ros::Time send(ros::WallTime received, Beginning begins) {
     auto sensor = std::make_shared<SensorFrame>(*frame_.sensor);
     sensor->header.stamp += ros::Duration(++sent_);
     sensor->received = received;
     auto frame = std::make_shared<TrackedFrame>(frame_);
     frame->sensor = sensor;
-    frame->begins_map = begins_map;
+    frame->begins = begins;
     late_.publish(makeMessage<TrackedFrame>(sensor->header, frame));
     return sensor->header.stamp;
   }
@@ -103,15 +103,15 @@ TEST_F(Resets, RefuseFramesFromBefore) {
   const uint32_t of_old_map = frame_.map_generation;
   const uint32_t of_new_map = generationOf(*findMap(graph_.resolve("tsdf_fusion")));
   ASSERT_NE(of_old_map, of_new_map);
-  for (const bool begins_map : {false, true}) {
+  for (const Beginning begins : {Beginning::kNone, Beginning::kMap, Beginning::kPart}) {
     for (const uint32_t generation : {of_old_map, of_new_map, 0u}) {
       frame_.map_generation = generation;
-      expectRefused(send(frame_.sensor->received, begins_map));
+      expectRefused(send(frame_.sensor->received, begins));
     }
     // Tracked in the map that is gone, or by one who has not heard of it.
     for (const uint32_t generation : {of_old_map, 0u}) {
       frame_.map_generation = generation;
-      expectRefused(send(ros::WallTime::now(), begins_map));
+      expectRefused(send(ros::WallTime::now(), begins));
     }
   }
 }
@@ -124,7 +124,7 @@ TEST_F(Resets, LeaveNothingOfFramesThatWaitForTheMap) {
     frame_.map_generation = generationOf(*map);
     std::thread resetting;
     const ros::Time stamp = map->locked([&](FusedMap&) {
-      const ros::Time sent = send(ros::WallTime::now(), true);
+      const ros::Time sent = send(ros::WallTime::now(), Beginning::kMap);
       ros::WallDuration(0.1).sleep();
       resetting = std::thread([this] { resetVolume(); });
       ros::WallDuration(0.1).sleep();
@@ -155,14 +155,14 @@ TEST(MapResets, GoByArrivalAndForAShortTimeByStamps) {
 // Frames as they come to the map, one after the other.
 class Admissions : public testing::Test {
  protected:
-  Admission admit(bool begins_map = false, uint32_t clock_jumps = 0) {
+  Admission admit(Beginning begins = Beginning::kNone, uint32_t clock_jumps = 0) {
     auto sensor = std::make_shared<SensorFrame>();
     sensor->received = ros::WallTime(100.0);
     sensor->clock_jumps = clock_jumps;
     TrackedFrame frame;
     frame.sensor = sensor;
     frame.map_generation = known_generation_;
-    frame.begins_map = begins_map;
+    frame.begins = begins;
     return admission_->admit(frame, map_, resets_on_jump_);
   }
 
@@ -187,21 +187,22 @@ TEST_F(Admissions, AreForFramesOfTheMapThatIsThere) {
 
 TEST_F(Admissions, EndWithAReset) {
   admission_->noteReset({ros::WallTime(100.5), ros::Time(0)});
-  EXPECT_EQ(admit(true).reason, kBeforeReset);
+  EXPECT_EQ(admit(Beginning::kMap).reason, kBeforeReset);
   admission_->noteReset({ros::WallTime(50.0), ros::Time(0)});
-  EXPECT_TRUE(admit(true).begins_map);
+  EXPECT_EQ(admit(Beginning::kMap).begins, Beginning::kMap);
+  EXPECT_EQ(admit(Beginning::kPart).begins, Beginning::kPart);
 }
 
 TEST_F(Admissions, OfPosesFromElsewhereBeginAMapWhenTheClockJumps) {
   admission_ = std::make_unique<FrameAdmission>(true, kFirst);
   known_generation_ = 0;
-  EXPECT_FALSE(admit(false, 0).begins_map);
-  EXPECT_TRUE(admit(false, 1).begins_map);
-  EXPECT_FALSE(admit(false, 1).begins_map);
-  EXPECT_EQ(admit(false, 0).reason, "from before a clock jump");
+  EXPECT_EQ(admit(Beginning::kNone, 0).begins, Beginning::kNone);
+  EXPECT_EQ(admit(Beginning::kNone, 1).begins, Beginning::kMap);
+  EXPECT_EQ(admit(Beginning::kNone, 1).begins, Beginning::kNone);
+  EXPECT_EQ(admit(Beginning::kNone, 0).reason, "from before a clock jump");
   resets_on_jump_ = false;
-  EXPECT_TRUE(admit(false, 2).fuse);
-  EXPECT_FALSE(admit(false, 3).begins_map);
+  EXPECT_TRUE(admit(Beginning::kNone, 2).fuse);
+  EXPECT_EQ(admit(Beginning::kNone, 3).begins, Beginning::kNone);
 }
 
 TEST_F(Admissions, StandStillInOtherModes) {
@@ -211,7 +212,7 @@ TEST_F(Admissions, StandStillInOtherModes) {
   admission_->setMode(MapMode::kLocalisation);
   EXPECT_EQ(admit().reason, "localisation only");
   EXPECT_TRUE(admit().may_predict_from);
-  EXPECT_FALSE(admit(true).may_predict_from);
+  EXPECT_FALSE(admit(Beginning::kMap).may_predict_from);
   map_.is_empty = true;
   EXPECT_FALSE(admit().may_predict_from);
 }

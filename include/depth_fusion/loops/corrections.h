@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct CorrectedKeyframe {
   double stamp_s = 0.0;
   Pose T_W_then = Pose::Identity();  // as it was tracked
   Pose T_W_now = Pose::Identity();
+  // Keyframes of a stretch were tracked in one go; stretches that loops hold together are one part. Both have
+  // the number of the first keyframe in them.
+  uint32_t stretch = 0, part = 0;
 };
 
 class Corrections {
@@ -21,8 +25,13 @@ class Corrections {
   // The keyframes in any order.
   explicit Corrections(std::vector<CorrectedKeyframe> keyframes);
 
-  // A pose as it was tracked: what the keyframes before and after make of it, blended by time.
+  // A pose as it was tracked: what the keyframes before and after make of it, blended by time; the one before
+  // alone where they are of two stretches.
   Pose corrected(const StampedPose& tracked) const;
+  // The part that a frame of that time is of.
+  uint32_t partAt(double stamp_s) const;
+  // Whether nothing says how the last keyframe lies to some others.
+  bool isApart() const;
   // How far the keyframe is moved that is moved most.
   double largestMove_m() const;
 
@@ -30,6 +39,10 @@ class Corrections {
   const std::vector<CorrectedKeyframe>& keyframes() const { return keyframes_; }
 
  private:
+  // Of keyframes_, which is not empty, the last one until then, or the first of all; and the one after it by
+  // time, if there is one.
+  std::pair<const CorrectedKeyframe*, const CorrectedKeyframe*> about(double stamp_s) const;
+
   std::vector<CorrectedKeyframe> keyframes_;
   std::vector<size_t> by_time_;  // their indices
 };

@@ -63,6 +63,7 @@ class LoopCloser {
     double stamp_s = 0.0;
     double way_m = 0.0;
     Pose T_W_then = Pose::Identity();
+    uint32_t stretch = 0;  // as CorrectedKeyframe has it
   };
 
   KeyframePtr keyframe(uint32_t number) const;

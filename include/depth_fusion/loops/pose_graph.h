@@ -58,6 +58,8 @@ class PoseGraph {
   const std::vector<GraphEdge>& edges() const { return edges_; }
   // The edges that meet in a node, those that are undone among them.
   const std::vector<uint32_t>& edgesOf(uint32_t node) const { return nodes_[node].edges; }
+  // For each node the lowest one that edges hold it together with.
+  std::vector<uint32_t> parts() const;
   size_t bytes() const;
 
  private:
@@ -79,8 +81,6 @@ class PoseGraph {
   std::set<uint32_t> undone() const;
   void setUndone(const std::set<uint32_t>& closures);
   GraphSolver solver(const std::vector<Pose>& start) const;
-  // For each node the lowest of its part.
-  std::vector<uint32_t> parts() const;
   void addEdge(GraphEdge edge);
 
   LoopParameters parameters_;

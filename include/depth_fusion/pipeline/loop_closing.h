@@ -53,6 +53,8 @@ class LoopClosing {
   Corrections keyframes() const;
   // What loops have made of the poses since the last adopt(); without keyframes if nothing.
   Corrections corrections() const;
+  // Whether loops have joined parts since then.
+  bool joinsParts() const;
   // Throws Error if it cannot be read back.
   KeyframePtr keyframe(uint32_t number);
   // Why loops are not sought any more; empty if all is well.
@@ -90,7 +92,7 @@ class LoopClosing {
   std::deque<Waiting> waiting_;                                 // the first one is at work
   std::vector<LoopCandidate> candidates_;
   std::vector<CorrectedKeyframe> known_;
-  bool is_moved_ = false;  // since the last adopt()
+  bool is_moved_ = false, joins_parts_ = false;  // since the last adopt()
   std::string problem_;
   bool ends_ = false;
   std::thread thread_;

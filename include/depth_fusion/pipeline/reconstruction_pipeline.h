@@ -64,6 +64,8 @@ class ReconstructionPipeline {
 
  private:
   void beginAnew();
+  // The sensor has been lost for long: another part of the map begins, unless what there is cannot be stored.
+  void beginPart();
   // Fuses the session's frame and renders the view that the next one is tracked against. A frame that an
   // exception leaves unfinished is given up, so that the next one can come.
   void fuseAndRender(const RgbdFrame& frame, FrameResult& result);

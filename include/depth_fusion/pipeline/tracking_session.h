@@ -62,8 +62,17 @@ class TrackingSession {
   // The map is emptied; the next step() without a view begins it anew where the sensor is expected.
   void beginAnew();
 
+  // The sensor has been lost for so long, before something that a loop may know it again by, that whoever
+  // owns the map had better begin another part of it.
+  bool isLostForLong() const;
+  // Nothing of the map is seen any more; the next step() without a view begins another part of it where the
+  // sensor is expected. The keyframes stay.
+  void beginPart();
+  // Nothing says how what was mapped since then lies to the rest of the map: map_doubt says so from now on.
+  void standsApart(double since_s);
+
   // TrackingResult::map_doubt, also of frames whose pose is known from elsewhere.
-  const std::string& mapDoubt() const { return watch_.doubt(); }
+  const std::string& mapDoubt() const { return watch_.doubt().empty() ? apart_ : watch_.doubt(); }
 
   // The frame of the last step() or follow(), preprocessed.
   std::shared_ptr<const DepthFrame> depth() const { return depth_; }
@@ -94,7 +103,17 @@ class TrackingSession {
     Matrix6d carried;  // by the pose, from priors
   };
 
+  // A time without a pose.
+  struct Loss {
+    double since_s, until_s;
+    bool sees_enough;  // in the last frame
+  };
+
   MotionPrior takePrepared(const RgbdFrame& frame);
+  // The frame is lost.
+  void noteLoss(const RgbdFrame& frame, const FrameFeatures& features);
+  // Another map, or part of one, is tracked against.
+  void forgetMap();
   // A tracked frame at T_W_D, if its depth suffices for the next one to be tracked against.
   TrackingResult begin(const RgbdFrame& frame, const Pose& T_W_D) const;
   // Tracks the frame against the view, or lost against what else the map shows.
@@ -143,7 +162,10 @@ class TrackingSession {
   MapWatch watch_;
   OlderView older_;
   std::optional<double> begun_blindly_s_;  // when the map began, if nothing said then how fast the sensor was
-  std::string begins_anew_for_;            // why the next map is one that begins anew; else empty
+  std::string begins_anew_for_;  // why the next map, or part of one, is one that begins anew; else empty
+  bool begins_part_ = false;
+  std::string apart_;  // that the part of the map is not joined to the rest; else empty
+  std::optional<Loss> loss_;
   std::shared_ptr<const DepthFrame> depth_;
   std::optional<FoundFrame> found_;
   size_t next_search_ = 0;  // of the places farther away

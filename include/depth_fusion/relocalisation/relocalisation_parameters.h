@@ -13,6 +13,7 @@ struct RelocalisationParameters {
   float min_inlier_fraction = 0.3f;
   int young_map_frames = 5;
   int give_up_after_frames = 15;
+  float lost_s = 10.0f;
 
   ParameterTable table();
 };

@@ -44,6 +44,10 @@ class SubmapCollection {
 
   // The sensor is at T_W_D, where a frame is to be fused; `is_given`: the pose is from elsewhere, and sure.
   void enter(const Pose& T_W_D, bool is_given);
+  // Nothing is known any more of how what is measured from now on lies to what there is: another submap
+  // begins where enter() says next, and the others are not sure. False, and nothing has changed, if what
+  // there is cannot be stored: problem() says why.
+  bool beginPart();
   // Sees to it that the map holds all the blocks that there are in the view up to max_range_m, and can take
   // more. What it cannot do, problem() says.
   void show(const CameraIntrinsics& camera, const Pose& T_W_D, double max_range_m);

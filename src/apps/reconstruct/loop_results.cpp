@@ -31,6 +31,8 @@ LoopResults resultsOf(LoopClosing& loops, const Trajectory& tracked) {
   loops.finish();
   LoopResults results;
   results.table = tableOf(loops.takeCandidates(), results.closed);
+  results.keyframes = loops.keyframes();
+  results.joins_parts = loops.joinsParts();
   const Corrections corrections = loops.corrections();
   for (const StampedPose& pose : tracked) {
     const Pose T_W_D = corrections.corrected(pose);

@@ -11,7 +11,9 @@ struct LoopResults {
   std::string table;  // a line for each pair of keyframes that was compared, as CSV
   size_t closed = 0;
   Trajectory corrected;
-  double moved_m = 0.0;  // the pose that is moved most
+  double moved_m = 0.0;   // the pose that is moved most
+  Corrections keyframes;  // with the parts that they are of
+  bool joins_parts = false;
 };
 
 // Waits until all keyframes are compared.

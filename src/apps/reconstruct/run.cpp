@@ -164,7 +164,8 @@ void Run::applyLoops() {
   const std::string problem = pipeline_->loops()->problem();
   if (!problem.empty()) log_.complain(problem);
   writeText(options_.output + "/loops.csv", loops.table);
-  if (loops.moved_m <= static_cast<double>(options_.parameters.loops.least_move_m)) return;
+  const bool moves = loops.moved_m > static_cast<double>(options_.parameters.loops.least_move_m);
+  if (!moves && !loops.joins_parts) return;
   try {
     openRecording();
   } catch (const std::exception& error) {
@@ -173,13 +174,13 @@ void Run::applyLoops() {
   std::printf("%zu loops move poses by up to %.0f mm: the frames are fused once more\n", loops.closed,
               1000.0 * loops.moved_m);
   writeTrajectory(options_.output + "/trajectory_without_loops.txt", log_.trajectory());
-  log_.correct(loops.corrected, loops.closed, loops.moved_m);
+  log_.correct(loops);
   const StageTimers timers = pipeline_->timers();
   const Keyframes keyframes = movedTo(log_.trajectory(), pipeline_->keyframes());
   pipeline_.reset();  // its memory is needed
   pipeline_ = std::make_unique<ReconstructionPipeline>(compute_, options_.parameters, camera_);
   try {
-    fuseAgain(*recording_, *pipeline_, log_, interrupted);
+    fuseAgain(*recording_, loops.keyframes, *pipeline_, log_, interrupted);
   } catch (const std::exception& error) {
     log_.complain(std::string(error.what()) + "; the map has the frames before, which were fused once more");
   }

@@ -42,6 +42,10 @@ void RunLog::noteTracked(const TrackingResult& tracking) {
   if (std::exchange(is_lost_, false))
     say("tracking again after " + std::to_string(counts_.losses.back().frames) + " lost frames");
   if (tracking.prior == "start") noteBegin(tracking.reason);
+  if (tracking.prior == "part start") {
+    say(tracking.reason);
+    part_doubt_ = tracking.map_doubt;
+  }
   ++counts_.tracked;
   const bool degenerate = tracking.status == TrackingStatus::kDegenerate;
   if (degenerate) ++counts_.degenerate;
@@ -103,10 +107,11 @@ void RunLog::noteManyUnreadable() {
              " frames could not be read, for the reasons above");
 }
 
-void RunLog::correct(const Trajectory& corrected, size_t loops, double moved_m) {
-  trajectory_ = corrected;
-  counts_.loops = loops;
-  counts_.moved_by_loops_m = moved_m;
+void RunLog::correct(const LoopResults& loops) {
+  trajectory_ = loops.corrected;
+  counts_.loops = loops.closed;
+  counts_.moved_by_loops_m = loops.moved_m;
+  if (!loops.keyframes.isApart() && counts_.map_doubt == part_doubt_) counts_.map_doubt.clear();
 }
 
 void RunLog::conclude() {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/reconstruct/loop_results.h"
 #include "apps/reconstruct/report.h"
 #include "apps/reconstruct/run.h"
 #include "depth_fusion/recording/trajectory_file.h"
@@ -32,8 +33,8 @@ class RunLog {
   void noteNoise(const DepthSensorParameters& sensor, const DepthFrame& depth);
   // Says each reason once.
   void noteUnreadable(const std::string& why);
-  // The tracked frames' poses are these, by so many loops.
-  void correct(const Trajectory& corrected, size_t loops, double moved_m);
+  // The tracked frames' poses are those that loops make of them.
+  void correct(const LoopResults& loops);
   // Says what is wrong with the whole, after the last frame.
   void conclude();
 
@@ -62,7 +63,8 @@ class RunLog {
   const std::string input_;
   RunCounts counts_;
   Trajectory trajectory_;
-  std::string status_;  // of the last frame
+  std::string status_;      // of the last frame
+  std::string part_doubt_;  // of the map, since a part began
   std::set<std::string> said_unreadable_;
   bool is_lost_ = false;          // the frame before
   bool is_searched_for_ = false;  // in a map that was loaded

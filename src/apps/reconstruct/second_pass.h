@@ -9,9 +9,9 @@
 
 namespace depth_fusion {
 
-// Fuses the frames that the log's trajectory has, where it has them. What cannot be read was said in the
-// first pass.
-void fuseAgain(Recording& recording, ReconstructionPipeline& pipeline, RunLog& log,
-               const std::atomic<bool>& interrupted);
+// Fuses the frames that the log's trajectory has, where it has them, into the parts of the map that the
+// keyframes have. What cannot be read was said in the first pass.
+void fuseAgain(Recording& recording, const Corrections& keyframes, ReconstructionPipeline& pipeline,
+               RunLog& log, const std::atomic<bool>& interrupted);
 
 }  // namespace depth_fusion

@@ -5,7 +5,7 @@
 namespace depth_fusion {
 namespace {
 
-Admission refused(const std::string& reason) { return {false, false, false, reason}; }
+Admission refused(const std::string& reason) { return {false, Beginning::kNone, false, reason}; }
 
 }  // namespace
 
@@ -16,8 +16,9 @@ Admission FrameAdmission::admit(const TrackedFrame& frame, const MapState& map, 
   const bool clock_jumped = clock_jumps > std::exchange(clock_jumps_, clock_jumps);
   if (mode_ == MapMode::kPaused) return refused("paused");
   if (mode_ == MapMode::kLocalisation)
-    return {false, false, !map.is_empty && !frame.begins_map, "localisation only"};
-  return {true, external_ ? clock_jumped && resets_on_jump : frame.begins_map, true, ""};
+    return {false, Beginning::kNone, !map.is_empty && frame.begins == Beginning::kNone, "localisation only"};
+  const Beginning by_clock = clock_jumped && resets_on_jump ? Beginning::kMap : Beginning::kNone;
+  return {true, external_ ? by_clock : frame.begins, true, ""};
 }
 
 bool FrameAdmission::isFromBeforeReset(const TrackedFrame& frame, const MapState& map) const {

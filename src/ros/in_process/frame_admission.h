@@ -11,7 +11,7 @@ namespace depth_fusion {
 // What is to become of a frame.
 struct Admission {
   bool fuse = false;
-  bool begins_map = false;        // the map is to be emptied before
+  Beginning begins = Beginning::kNone;
   bool may_predict_from = false;  // the tracker may go on from it though it is not fused
   std::string reason;             // why it is not fused
 };

@@ -24,9 +24,11 @@ MappingOutcome FrameMapper::map(const TrackedFrame& frame, FusedMap& map, bool r
   const MapState state{map.map().generation(), map.isEmpty()};
   const Admission admission = admission_.admit(frame, state, resets_on_jump);
   if (!admission.fuse) return {admission.may_predict_from, false, admission.reason};
-  if (admission.begins_map) empty(map);
+  if (admission.begins == Beginning::kMap) empty(map);
+  if (admission.begins == Beginning::kPart && !map.submaps().beginPart())
+    return {false, false, map.submaps().problem()};
   MappingOutcome outcome = fuse(frame, map, timers);
-  if (!admission.begins_map || state.is_empty) return outcome;
+  if (admission.begins == Beginning::kNone || state.is_empty) return outcome;
   const std::string& why = frame.tracking.reason.empty() ? kEmptied : frame.tracking.reason;
   outcome.reason = why + (outcome.reason.empty() ? "" : "; " + outcome.reason);
   ROS_WARN_STREAM(outcome.reason);

@@ -47,13 +47,17 @@ inline TexturedFramePtr withoutTexture(const SensorFramePtr& sensor) {
       TexturedSensorFrame{sensor, withoutTexture("no texture odometry"), nullptr});
 }
 
+// What begins with a frame.
+enum class Beginning { kNone, kMap, kPart };
+
 // What travels on the topic icp_tracking/frame.
 struct TrackedFrame {
   SensorFramePtr sensor;
   std::shared_ptr<const DepthFrame> depth;  // preprocessed; null if lost
   TrackingResult tracking;
   uint32_t map_generation = 0;  // of the map that it was tracked against; 0: of none
-  bool begins_map = false;      // the clock jumped back: the map is to begin anew with this frame
+  // kMap: the map is emptied before; kPart: nothing says how the frame lies to the map of before.
+  Beginning begins = Beginning::kNone;
 };
 using TrackedFramePtr = std::shared_ptr<const TrackedFrame>;
 using TrackedFrameMessage = ProcessMessage<TrackedFrame>;

@@ -58,7 +58,7 @@ std::optional<FusionNews> FusionLink::newsOf(const MapViewMessage& message) {
   FusionNews news{FusionNews::kRejected, message.payload};
   if (accepted) {
     news.kind = FusionNews::kAccepted;
-  } else if (other_map || (answers && sent_->begins_map)) {
+  } else if (other_map || (answers && sent_->begins != Beginning::kNone)) {
     news.kind = FusionNews::kOtherMap;
   } else if (!answers) {
     return std::nullopt;
@@ -69,10 +69,10 @@ std::optional<FusionNews> FusionLink::newsOf(const MapViewMessage& message) {
 
 void FusionLink::send(const SensorFramePtr& frame, std::shared_ptr<const DepthFrame> depth,
                       const TrackingResult& tracking) {
-  sent_ = Sent{frame->header.stamp, std::exchange(begins_map_, false)};
+  sent_ = Sent{frame->header.stamp, std::exchange(begins_, Beginning::kNone)};
   frames_.publish(makeMessage<TrackedFrame>(
-      frame->header, std::make_shared<TrackedFrame>(TrackedFrame{frame, std::move(depth), tracking,
-                                                                 map_generation_, sent_->begins_map})));
+      frame->header, std::make_shared<TrackedFrame>(
+                         TrackedFrame{frame, std::move(depth), tracking, map_generation_, sent_->begins})));
 }
 
 }  // namespace depth_fusion

@@ -39,15 +39,15 @@ class FusionLink {
   std::vector<FusionNews> await();
   void send(const SensorFramePtr& frame, std::shared_ptr<const DepthFrame> depth,
             const TrackingResult& tracking);
-  // The next frame that is sent begins the map anew.
-  void beginMap() { begins_map_ = true; }
+  // The next frame that is sent begins the map anew, or a part of it.
+  void begin(Beginning beginning) { begins_ = beginning; }
   MapMode mode() const { return mode_; }
   bool isBeforeReset(const SensorFrame& frame) const { return reset_.isAfter(frame); }
 
  private:
   struct Sent {
     ros::Time stamp;
-    bool begins_map;
+    Beginning begins;
   };
 
   std::optional<FusionNews> newsOf(const MapViewMessage& message);
@@ -56,7 +56,7 @@ class FusionLink {
   ros::Publisher frames_;
   std::optional<Sent> sent_;     // the frame that is not answered yet
   uint32_t map_generation_ = 0;  // 0: there is no map yet
-  bool begins_map_ = false;
+  Beginning begins_ = Beginning::kNone;
   MapMode mode_ = MapMode::kMapping;
   MapReset reset_;
 

@@ -7,7 +7,6 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/preprocessing/sensor_noise.h"
 #include "ros/conversions/status_messages.h"
-#include "ros/in_process/shared_map.h"
 
 namespace depth_fusion {
 namespace {
@@ -156,15 +155,16 @@ void LiveTracker::catchUp(const SensorFrame& frame) {
     session_->lose();
     if (parameters_.resetsOnClockJump() && fusion_.mode() == MapMode::kMapping) {
       changeMap(nullptr);
-      fusion_.beginMap();
+      fusion_.begin(Beginning::kMap);
     }
   }
   if (map_ != nullptr && map_->map.expired()) changeMap(nullptr);  // tsdf_fusion was unloaded
   if (session_->givesUpMap() && fusion_.mode() == MapMode::kMapping) {
     session_->beginAnew();
     map_ = nullptr;
-    fusion_.beginMap();
+    fusion_.begin(Beginning::kMap);
   }
+  if (session_->isLostForLong()) beginPart();
   skipped_.replay(frame, *session_, robot_motion_);
 }
 
@@ -174,11 +174,24 @@ std::string LiveTracker::refusal(const SensorFrame& frame) const {
   return fusion_.isBeforeReset(frame) ? kBeforeReset : "";
 }
 
+LoopsOfMap LiveTracker::loops() const {
+  const std::shared_ptr<SharedMap> map = map_ == nullptr ? nullptr : map_->map.lock();
+  const bool may_seek = map != nullptr && fusion_.mode() == MapMode::kMapping;
+  return may_seek ? map->loopsOf(map_->map_generation) : LoopsOfMap();
+}
+
+void LiveTracker::beginPart() {
+  const LoopsOfMap loops_of_map = loops();
+  if (loops_of_map.closing == nullptr) return;
+  loops_of_map.closing->beginAnew();
+  session_->beginPart();
+  map_ = nullptr;
+  fusion_.begin(Beginning::kPart);
+}
+
 void LiveTracker::seekLoops() {
-  const std::shared_ptr<SharedMap> map = map_->map.lock();
-  if (map == nullptr || map_->mode != MapMode::kMapping || view() == nullptr) return;
-  const LoopsOfMap loops = map->loopsOf(map_->map_generation);
-  if (loops.closing == nullptr) return;
+  const LoopsOfMap loops = this->loops();
+  if (loops.closing == nullptr || view() == nullptr) return;
   loops.closing->add(sent_->rgbd, session_->features(), view()->T_W_D, *view(), loops.world);
 }
 
@@ -187,10 +200,14 @@ void LiveTracker::changeMap(const std::shared_ptr<const MapView>& map) {
                         map->move->from_generation == map_->map_generation;
   map_ = map;
   if (session_ != nullptr) session_->reset(viewPose(), keyframesOf(map));  // one that is made later does so
-  if (is_moved)
-    robot_.correct_poses(*map->move->corrections);
-  else
+  if (is_moved) {
+    const Corrections& corrections = *map->move->corrections;
+    robot_.correct_poses(corrections);
+    if (session_ != nullptr && corrections.isApart())
+      session_->standsApart(corrections.keyframes().back().stamp_s);
+  } else {
     robot_.forget_poses();
+  }
   const std::lock_guard<std::mutex> lock(expected_mutex_);
   T_map_base_.reset();
 }

@@ -14,6 +14,7 @@
 #include "depth_fusion/robot_motion/robot_motion.h"
 #include "ros/in_process/fusion_link.h"
 #include "ros/in_process/live_tracker_parameters.h"
+#include "ros/in_process/shared_map.h"
 #include "ros/in_process/skipped_frames.h"
 
 namespace depth_fusion {
@@ -88,8 +89,13 @@ class LiveTracker {
   // The pose of the view; the origin without one.
   Pose viewPose() const { return view() == nullptr ? Pose::Identity() : view()->T_W_D; }
   void warnOfNoise();
+  // What seeks loops in the map; nothing where they are not sought.
+  LoopsOfMap loops() const;
   // Has the frame that was just fused seek loops.
   void seekLoops();
+  // The sensor has been lost for long: another part of the map begins with the next frame, where loops are
+  // sought that may join it with the rest.
+  void beginPart();
   // Lets whoever saves the map have its keyframes.
   void shareKeyframes();
   Keyframes keyframesOf(const std::shared_ptr<const MapView>& map) const;

@@ -3,11 +3,14 @@
 #include <depth_fusion/LoopStatus.h>
 #include <ros/console.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/pipeline/map_refinement.h"
 #include "ros/conversions/messages.h"
 
@@ -39,6 +42,18 @@ Keyframes movedBy(const Corrections& corrections, const Keyframes& keyframes) {
   for (const KeyframePtr& keyframe : keyframes)
     moved.push_back(movedTo(corrections.corrected({keyframe->stamp_s, keyframe->T_W_D}), *keyframe));
   return moved;
+}
+
+// The keyframes' numbers from that one on, part by part, those of the last keyframe's part in the end.
+std::vector<uint32_t> partByPart(const std::vector<CorrectedKeyframe>& keyframes, size_t first) {
+  std::vector<uint32_t> numbers(keyframes.size() - first);
+  std::iota(numbers.begin(), numbers.end(), static_cast<uint32_t>(first));
+  const auto turn = [&](uint32_t number) {
+    const uint32_t part = keyframes[number].part;
+    return std::make_pair(part == keyframes.back().part, part);
+  };
+  std::stable_sort(numbers.begin(), numbers.end(), [&](uint32_t a, uint32_t b) { return turn(a) < turn(b); });
+  return numbers;
 }
 
 }  // namespace
@@ -75,7 +90,8 @@ void MapRefiner::look() {
   const double move_m = loops_->corrections().largestMove_m();
   const bool rests = std::abs(move_m - std::exchange(seen_move_m_, move_m)) < kStill_m;
   const bool failed = failed_move_m_ && std::abs(move_m - *failed_move_m_) < kStill_m;
-  if (!rests || failed || move_m <= static_cast<double>(loops_parameters_.least_move_m)) return;
+  const bool moves = move_m > static_cast<double>(loops_parameters_.least_move_m) || loops_->joinsParts();
+  if (!rests || failed || !moves) return;
   try {
     replace();
     failed_move_m_.reset();
@@ -145,6 +161,7 @@ PipelineParameters MapRefiner::parametersNow() const {
 Corrections MapRefiner::fuse(MapRefinement& refinement) {
   std::vector<CorrectedKeyframe> fused;
   size_t cleared = 0;
+  uint32_t part = 0;
   const auto clearUntil = [&](double stamp_s) {
     const auto clearings = map_->locked([](FusedMap& map) { return map.clearings(); });
     for (; cleared < clearings.size() && clearings[cleared].first < stamp_s; ++cleared) {
@@ -155,14 +172,28 @@ Corrections MapRefiner::fuse(MapRefinement& refinement) {
   while (true) {
     const std::vector<CorrectedKeyframe> known = loops_->keyframes().keyframes();
     if (known.size() == fused.size()) break;
-    for (size_t i = fused.size(); i < known.size(); ++i) {
-      clearUntil(known[i].stamp_s);
-      refinement.fuse(*loops_->keyframe(static_cast<uint32_t>(i)), known[i].T_W_now);
-      fused.push_back(known[i]);
+    const size_t fused_before = fused.size();
+    fused.insert(fused.end(), known.begin() + static_cast<std::ptrdiff_t>(fused_before), known.end());
+    for (const uint32_t number : partByPart(fused, fused_before)) {
+      const CorrectedKeyframe& keyframe = fused[number];
+      clearUntil(keyframe.stamp_s);
+      if (keyframe.part != std::exchange(part, keyframe.part))
+        check(refinement.submaps().beginPart(), refinement.submaps().problem());
+      refinement.fuse(*loops_->keyframe(number), keyframe.T_W_now);
     }
   }
   clearUntil(std::numeric_limits<double>::infinity());
   return Corrections(std::move(fused));
+}
+
+void MapRefiner::fuseLastView(MapRefinement& refinement, const Corrections& corrections) {
+  const auto [view, last_pose] =
+      map_->locked([this](FusedMap&) { return std::make_pair(mapper_.view(), mapper_.lastPose()); });
+  if (view == nullptr) return;
+  Keyframe last;
+  last.view =
+      KeyframeView(readImage(view->depth, view->camera), view->camera, loops_parameters_.view_width_px);
+  refinement.fuse(last, corrections.corrected(last_pose));
 }
 
 Corrections MapRefiner::replace() {
@@ -170,6 +201,7 @@ Corrections MapRefiner::replace() {
   auto refinement = std::make_unique<MapRefinement>(*queue_, parametersNow());
   const Corrections corrections = fuse(*refinement);
   check(!refinement->submaps().isEmpty(), "no keyframe shows anything yet; the map stays as it is");
+  fuseLastView(*refinement, corrections);
   MapSaver saver(scratch);
   refinement->save(saver, mapper_.camera(), {}, {});
   refinement.reset();  // its memory is needed

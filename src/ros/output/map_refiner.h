@@ -42,6 +42,9 @@ class MapRefiner {
   bool serve(RefineMap::Request& request, RefineMap::Response& response);
   // Fuses the keyframes, those that come meanwhile among them, and returns where they were by then.
   Corrections fuse(MapRefinement& refinement);
+  // Fuses what the sensor sees now: frames are left out of the keyframes while too many wait, and tracking
+  // has to go on from there.
+  void fuseLastView(MapRefinement& refinement, const Corrections& corrections);
   Corrections replace();
   Corrections saveTo(const std::string& place, float voxel_size_m);
   // Parameters for a map as there is now.

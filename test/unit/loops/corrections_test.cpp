@@ -26,6 +26,19 @@ TEST(Corrections, BlendByTimeBetweenKeyframes) {
   EXPECT_EQ(Corrections().largestMove_m(), 0.0);
 }
 
+// Frames after the last keyframe of a stretch have nothing of the next one, wherever that is moved.
+TEST(Corrections, StretchesAreNotBlended) {
+  const Corrections corrections({{0.0, at(0.0), at(0.1), 0, 0}, {4.0, at(0.0), at(9.0), 1, 1}});
+  EXPECT_NEAR(corrections.corrected({3.0, at(0.5)}).translation().x(), 0.6, 1e-12);
+  EXPECT_NEAR(corrections.corrected({4.5, at(0.5)}).translation().x(), 9.5, 1e-12);
+  EXPECT_EQ(corrections.partAt(-1.0), 0u);
+  EXPECT_EQ(corrections.partAt(3.9), 0u);
+  EXPECT_EQ(corrections.partAt(4.0), 1u);
+  EXPECT_TRUE(corrections.isApart());
+  EXPECT_FALSE(Corrections({{0.0, at(0.0), at(0.1), 0, 0}, {4.0, at(0.0), at(9.0), 1, 0}}).isApart());
+  EXPECT_FALSE(Corrections().isApart());
+}
+
 TEST(Corrections, AFrameTurnsAboutItsKeyframeNotAboutTheOrigin) {
   const Corrections corrections({{0.0, at(100.0), at(100.0)}, {1.0, at(101.0), at(101.0, 0.2)}});
   const Pose corrected = corrections.corrected({0.5, at(100.5)});

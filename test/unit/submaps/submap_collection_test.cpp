@@ -154,6 +154,30 @@ TEST(SubmapCollection, WhatIsNotSureIsNotGoneOnWith) {
   EXPECT_EQ(submaps.blockCount(), 1u);
 }
 
+// Also where poses count as exact: what was mapped before another part began is kept, and not seen from it,
+// in a map that was saved and loaded, too.
+TEST(SubmapCollection, AnotherPartDoesNotSeeTheOneBefore) {
+  SubmapParameters parameters = smallMemory();
+  parameters.drift = 0.0f;
+  Walk walk(windowOf(32), parameters);
+  for (double x = 0.0; x < 3.0; x += 0.05) walk.goTo(x);
+  const size_t before = walk.submaps().blockCount();
+  ASSERT_TRUE(walk.submaps().beginPart());
+  EXPECT_EQ(walk.map().slots().used(), 0u);
+  EXPECT_EQ(walk.submaps().blockCount(), before);
+  for (double x = 3.0; x > 0.0; x -= 0.05) walk.look(x);
+  EXPECT_EQ(walk.map().slots().used(), 0u) << "nothing comes back";
+  const TemporaryFolder folder;
+  MapSaver saver(folder / "parts.map");
+  walk.save(saver);
+  BlockMap other(compute(), walk.map().parameters());
+  SubmapCollection loaded(other, parameters);
+  ReadMap(*openDatabase(folder / "parts.map", DatabaseAccess::kRead), loaded).moveTo(loaded);
+  EXPECT_EQ(loaded.blockCount(), before);
+  EXPECT_EQ(other.slots().used(), 0u);
+  EXPECT_TRUE(Walk::contentsOf(loaded) == walk.expected());
+}
+
 TEST(SubmapCollection, ASubmapEndsAfterALengthThatIsSaid) {
   SubmapParameters parameters = smallMemory();
   parameters.max_length_m = 1.0f;
