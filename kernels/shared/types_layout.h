@@ -79,6 +79,20 @@
   MEMBER(MeshBlockArgs, index)               \
   MEMBER(MeshBlockArgs, first_vertex)        \
   MEMBER(MeshBlockArgs, first_triangle)      \
-  MEMBER(MeshBlockArgs, neighbours)
+  MEMBER(MeshBlockArgs, neighbours)          \
+  STRUCT(EsdfArgs)                           \
+  MEMBER(EsdfArgs, cell_m)                   \
+  MEMBER(EsdfArgs, voxel_m)                  \
+  MEMBER(EsdfArgs, truncation_m)             \
+  MEMBER(EsdfArgs, cell_voxels)              \
+  MEMBER(EsdfArgs, surface_steps)            \
+  MEMBER(EsdfArgs, reach)                    \
+  MEMBER(EsdfArgs, max_distance_m)           \
+  MEMBER(EsdfArgs, steps_per_m)              \
+  MEMBER(EsdfArgs, hidden_m)                 \
+  STRUCT(EsdfRegionArgs)                     \
+  MEMBER(EsdfRegionArgs, blocks)             \
+  MEMBER(EsdfRegionArgs, first)              \
+  MEMBER(EsdfRegionArgs, size)
 
 #endif
