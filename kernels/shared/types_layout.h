@@ -1,4 +1,5 @@
-// Every struct of types.h and its members, for host and kernel to report how they lay them out.
+// Every struct of types.h and of esdf/types.h and its members, for host and kernel to report how they lay
+// them out.
 #ifndef DEPTH_FUSION_SHARED_TYPES_LAYOUT_H
 #define DEPTH_FUSION_SHARED_TYPES_LAYOUT_H
 

@@ -1,9 +1,8 @@
 #include "depth_fusion/esdf/esdf.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <utility>
+#include <optional>
 
 #include "depth_fusion/compute/device_image.h"
 #include "esdf/cell_lists.h"
@@ -12,8 +11,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr size_t kBytesPerCell = 9;   // six on the device, three here
-constexpr float kReachMargin = 2.0f;  // cells between a distance and the one that a site was chosen by
+constexpr size_t kBytesPerCell = 9;  // six on the device, three here
 constexpr size_t kBlocksAtOnce = 256;
 
 size_t maxBlocks(const EsdfParameters& parameters) {
@@ -24,12 +22,6 @@ size_t maxBlocks(const EsdfParameters& parameters) {
 EsdfParameters validated(EsdfParameters parameters) {
   validate(parameters.table());
   return parameters;
-}
-
-// How far apart they are at least, in cells.
-float cellsBetween(const BlockIndex& a, const BlockIndex& b) {
-  const Eigen::Array3i apart = ((a - b).array().abs() - 1).max(0);
-  return ESDF_BLOCK * apart.cast<float>().matrix().norm();
 }
 
 }  // namespace
@@ -63,15 +55,22 @@ BlockBox Esdf::boxOf(const BlockIndex& block) const {
   return cubeFrom(blocks_per_axis_ * block, blocks_per_axis_);
 }
 
+void Esdf::noteStale(const std::vector<BlockIndex>& of_map) {
+  std::optional<BlockIndex> last;  // most are where the one before is
+  for (const BlockIndex& block : of_map) {
+    const BlockIndex here = blockOf(block);
+    if (last != here) stale_.insert(here);
+    last = here;
+  }
+}
+
 bool Esdf::readMap(StageTimers& timers) {
   const StageTimers::Scope timer(timers, "esdf/read_map");
   const MapChanges changes = changes_.take();
   const bool is_new = changes.generation != generation_;
   if (is_new) forgetAll();
   generation_ = changes.generation;
-  for (const auto* blocks : {&changes.updated, &changes.released, &changes.evicted}) {
-    for (const BlockIndex& block : *blocks) stale_.insert(blockOf(block));
-  }
+  for (const auto* blocks : {&changes.updated, &changes.released, &changes.evicted}) noteStale(*blocks);
   if (changes.complete) {
     for (const auto& [block, slot] : cells_->slots()) stale_.insert(block);
     for (const BlockBox& box : elsewhere_ ? elsewhere_->boxes() : std::vector<BlockBox>()) {
@@ -100,9 +99,13 @@ bool Esdf::readMap(StageTimers& timers) {
 void Esdf::readSurface(BlockMap& map, const std::vector<BlockIndex>& blocks) {
   std::map<BlockIndex, std::vector<int>, BlockOrder> slots_of;
   for (const BlockIndex& block : blocks) slots_of[block];
+  auto found = slots_of.end();
+  std::optional<BlockIndex> last;
   for (int slot = 0; slot < map.slots().bound(); ++slot) {
     if (!map.slots().inUse(slot)) continue;
-    const auto found = slots_of.find(blockOf(map.slots().blockOf(slot)));
+    const BlockIndex here = blockOf(map.slots().blockOf(slot));
+    if (last != here) found = slots_of.find(here);
+    last = here;
     if (found != slots_of.end()) found->second.push_back(slot);
   }
   std::vector<BlockIndex> read;
@@ -153,55 +156,6 @@ void Esdf::see(const DeviceBuffer& depth, const FreeSpaceView& view) {
     slots.push_back(slot);
   }
   if (!blocks.empty()) noteChanges(blocks, lists_->see(depth, view, blocks, slots, *cells_));
-}
-
-void Esdf::computeAll() {
-  for (const auto& [block, slot] : cells_->slots()) known_changed_.insert(block);
-}
-
-std::vector<BlockIndex> Esdf::dirtyBlocks() const {
-  BlockSet dirty = known_changed_;
-  BlockBox about;
-  for (const BlockIndex& block : sites_changed_) about.extend(block);
-  for (const auto& [block, reach] : reach_) {
-    if (about.isEmpty() || dirty.count(block) > 0) continue;
-    const auto isInReach = [&here = block, far = reach](const BlockIndex& changed) {
-      return cellsBetween(here, changed) <= far;
-    };
-    const BlockIndex nearest = block.cwiseMax(about.min()).cwiseMin(about.max());
-    if (isInReach(nearest) && std::any_of(sites_changed_.begin(), sites_changed_.end(), isInReach))
-      dirty.insert(block);
-  }
-  return {dirty.begin(), dirty.end()};
-}
-
-std::vector<BlockIndex> Esdf::update(StageTimers& timers) {
-  const StageTimers::Scope timer(timers, "esdf/update");
-  const std::vector<BlockIndex> dirty = dirtyBlocks();
-  const float step_cells = grid_.stepSize_m() / static_cast<float>(grid_.cellSize_m());
-  field_->compute(dirty, [&](const BlockIndex& index, const int32_t* cells) {
-    EsdfGrid::Block block;
-    block.steps.resize(ESDF_CELLS);
-    block.states.resize(ESDF_CELLS);
-    int farthest = -1;
-    bool is_known = false;
-    for (size_t n = 0; n < ESDF_CELLS; ++n) {
-      block.steps[n] = static_cast<int16_t>(cells[n] & 0xffff);
-      block.states[n] = static_cast<CellState>(static_cast<int8_t>(cells[n] >> 16 & 0xff));
-      is_known = is_known || block.states[n] != CellState::kUnknown;
-      if (block.steps[n] != EsdfGrid::kUnknownSteps)
-        farthest = std::max(farthest, std::abs(int{block.steps[n]}));
-    }
-    reach_[index] = farthest < 0 ? -1.0f : step_cells * static_cast<float>(farthest) + kReachMargin;
-    if (is_known) {
-      grid_.blocks()[index] = std::move(block);
-    } else {
-      grid_.blocks().erase(index);
-    }
-  });
-  known_changed_.clear();
-  sites_changed_.clear();
-  return dirty;
 }
 
 }  // namespace depth_fusion

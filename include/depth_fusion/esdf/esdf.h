@@ -56,6 +56,8 @@ class Esdf {
   void forgetAll();
   BlockIndex blockOf(const BlockIndex& of_map) const;
   BlockBox boxOf(const BlockIndex& block) const;
+  // The surface of the blocks of cells is to be read that these blocks of the map lie in.
+  void noteStale(const std::vector<BlockIndex>& of_map);
   // Reads the surface of the listed blocks of cells anew, from a map that has it.
   void readSurface(BlockMap& map, const std::vector<BlockIndex>& blocks);
   void see(const DeviceBuffer& depth, const FreeSpaceView& view);

@@ -7,8 +7,8 @@
 
 #include "compute/embedded_kernels.h"
 #include "compute/kernel.h"
-#include "shared/types.h"
 #include "esdf/types.h"
+#include "shared/types.h"
 #include "shared/types_layout.h"
 
 namespace depth_fusion {
