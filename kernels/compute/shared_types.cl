@@ -1,5 +1,6 @@
 // The device's layout of the argument structs, for the test that compares it with the host's. One work-item.
 //   layout  for each struct: its size; for each of its members: offset and size
+#include "esdf/types.h"
 #include "shared/types.h"
 #include "shared/types_layout.h"
 

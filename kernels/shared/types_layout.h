@@ -1,4 +1,5 @@
-// Every struct of types.h and its members, for host and kernel to report how they lay them out.
+// Every struct of types.h and of esdf/types.h and its members, for host and kernel to report how they lay
+// them out.
 #ifndef DEPTH_FUSION_SHARED_TYPES_LAYOUT_H
 #define DEPTH_FUSION_SHARED_TYPES_LAYOUT_H
 
@@ -79,6 +80,20 @@
   MEMBER(MeshBlockArgs, index)               \
   MEMBER(MeshBlockArgs, first_vertex)        \
   MEMBER(MeshBlockArgs, first_triangle)      \
-  MEMBER(MeshBlockArgs, neighbours)
+  MEMBER(MeshBlockArgs, neighbours)          \
+  STRUCT(EsdfArgs)                           \
+  MEMBER(EsdfArgs, cell_m)                   \
+  MEMBER(EsdfArgs, voxel_m)                  \
+  MEMBER(EsdfArgs, truncation_m)             \
+  MEMBER(EsdfArgs, cell_voxels)              \
+  MEMBER(EsdfArgs, surface_steps)            \
+  MEMBER(EsdfArgs, reach)                    \
+  MEMBER(EsdfArgs, max_distance_m)           \
+  MEMBER(EsdfArgs, steps_per_m)              \
+  MEMBER(EsdfArgs, hidden_m)                 \
+  STRUCT(EsdfRegionArgs)                     \
+  MEMBER(EsdfRegionArgs, blocks)             \
+  MEMBER(EsdfRegionArgs, first)              \
+  MEMBER(EsdfRegionArgs, size)
 
 #endif

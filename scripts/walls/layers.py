@@ -10,8 +10,7 @@ FLOORS = [
     ["frames"],
     ["map", "recording"],
     ["registration", "preprocessing", "texture_odometry", "robot_motion", "tsdf_fusion", "color_fusion", "model_view",
-     "icp_tracking",
-     "relocalisation", "surface_mesh", "acquisition"],
+     "icp_tracking", "relocalisation", "surface_mesh", "esdf", "acquisition"],
     ["loops"],
     ["submaps"],
     ["pipeline"],
@@ -38,12 +37,12 @@ EXCEPTIONS = {
 # What the core may include that is not its own: the standard library, POSIX, and these libraries. All else, and so
 # whatever ROS has, is outside: Debian's ROS lies in /usr/include, where the compiler would find it.
 CORE_LIBRARIES = re.compile(
-    r"[a-z_]+$|(unistd|fcntl)\.h$|sys/|Eigen/|opencv2/|CL/|yaml-cpp/|ceres/|OpenNI\.h$|meshoptimizer\.h$|(lmdb|zstd|libpq-fe)\.h$"
+    r"[a-z_]+$|(unistd|fcntl)\.h$|sys/|Eigen/|opencv2/|CL/|yaml-cpp/|ceres/|octomap/|OpenNI\.h$|meshoptimizer\.h$|(lmdb|zstd|libpq-fe)\.h$"
 )
 # What only the workshop and the apps have, so that a robot's build needs it not.
 WORKSHOP_LIBRARIES = re.compile(r"CLI/|nlohmann/|benchmark/")
 # Of the core's, what public headers keep to themselves, so that whoever uses the core needs it not.
-PRIVATE_LIBRARIES = re.compile(r"CL/|yaml-cpp/|ceres/|OpenNI\.h$|meshoptimizer\.h$|(lmdb|zstd|libpq-fe)\.h$")
+PRIVATE_LIBRARIES = re.compile(r"CL/|yaml-cpp/|ceres/|octomap/|OpenNI\.h$|meshoptimizer\.h$|(lmdb|zstd|libpq-fe)\.h$")
 
 # What travels between stages, and between nodelets.
 TRAVELS = ("include/depth_fusion/frames/", "src/ros/in_process/frames.h", "src/ros/in_process/process_message.h")

@@ -36,7 +36,7 @@ MeshStatistics exportWorldMesh(ComputeContext& compute, WorldSnapshot& world, Me
                                const std::function<void(double)>& progress = nullptr);
 
 // Parts of a map that are not in the pool, for whoever follows the map chunk by chunk.
-class WorldParts final : public MeshChunks::Elsewhere {
+class WorldParts final : public BlocksElsewhere {
  public:
   // Keeps references.
   WorldParts(ComputeContext& compute, SubmapCollection& submaps);

@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "depth_fusion/map/blocks_elsewhere.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
 
 namespace depth_fusion {
@@ -33,18 +34,8 @@ class MeshChunks {
              int blocks_per_axis = 16);
   ~MeshChunks();
 
-  // Blocks that belong to the map, and are not in it now.
-  class Elsewhere {
-   public:
-    virtual ~Elsewhere() = default;
-    // Boxes that have all of them.
-    virtual std::vector<BlockBox> boxes() const = 0;
-    // A map that has the blocks of a cube, which is of the size of a chunk, and those about it, until the
-    // next call: always the same one; null if the map that is followed has all that there are.
-    virtual BlockMap* load(const BlockBox& box) = 0;
-  };
   // Chunks of which a part is elsewhere are extracted from there.
-  void lookElsewhere(std::unique_ptr<Elsewhere> elsewhere) { elsewhere_ = std::move(elsewhere); }
+  void lookElsewhere(std::unique_ptr<BlocksElsewhere> elsewhere) { elsewhere_ = std::move(elsewhere); }
 
   // Takes note of what changed in the map since the last call. After a reset of the map all chunks are
   // forgotten; none is reported as gone.
@@ -95,7 +86,7 @@ class MeshChunks {
   ComputeContext& compute_;
   BlockMap& map_;
   SurfaceMeshParameters parameters_;
-  std::unique_ptr<Elsewhere> elsewhere_;  // null: nothing is elsewhere
+  std::unique_ptr<BlocksElsewhere> elsewhere_;  // null: nothing is elsewhere
   MapSubscription changes_;
   uint32_t generation_ = 0;
   int blocks_per_axis_;

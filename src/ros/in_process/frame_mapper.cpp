@@ -49,12 +49,13 @@ MappingOutcome FrameMapper::fuse(const TrackedFrame& frame, FusedMap& map, Stage
   if (frame.depth == nullptr && preprocessor_ == nullptr)
     preprocessor_ = std::make_unique<DepthPreprocessor>(*compute_, parameters_.preprocessing, camera_,
                                                         parameters_.depth_sensor);
-  const DepthFrame& depth =
-      frame.depth ? *frame.depth : preprocessor_->process(rgbd, motion_.moveTo(rgbd.stamp_s, T_W_D), timers);
+  if (frame.depth == nullptr) preprocessor_->process(rgbd, motion_.moveTo(rgbd.stamp_s, T_W_D), timers);
+  const std::shared_ptr<const DepthFrame> depth = frame.depth ? frame.depth : preprocessor_->result();
   map.noteFrame(rgbd.stamp_s, T_W_D.translation());
-  const MappingResult result = map.mapper(camera_).fuse(rgbd, depth, T_W_D, admission_.isExternal(), timers);
+  const MappingResult result = map.mapper(camera_).fuse(rgbd, *depth, T_W_D, admission_.isExternal(), timers);
   if (!result.fusion.fused()) return {false, false, notFusedReason()};
   last_pose_ = {rgbd.stamp_s, T_W_D};
+  map.tell(depth, T_W_D);
   const std::string problem = map.submaps().problem();
   return {true, true, problem.empty() ? leftOutReason(result) : problem,
           result.fusion.blocks_requested - result.fusion.blocks_allocated};

@@ -1,5 +1,6 @@
 #include "ros/in_process/shared_map.h"
 
+#include <algorithm>
 #include <map>
 
 #include "depth_fusion/pipeline/stored_map.h"
@@ -41,6 +42,15 @@ void FusedMap::reset() {
 void FusedMap::noteFrame(double stamp_s, const Eigen::Vector3d& camera_W) {
   last_stamp_s_ = stamp_s;
   camera_W_ = camera_W;
+}
+
+void FusedMap::tell(const std::shared_ptr<const DepthFrame>& depth, const Pose& T_W_D) {
+  const auto is_gone = [&](const std::weak_ptr<const FrameListener>& listener) {
+    const std::shared_ptr<const FrameListener> held = listener.lock();
+    if (held != nullptr) (*held)(depth, T_W_D, map_.generation());
+    return held == nullptr;
+  };
+  listeners_.erase(std::remove_if(listeners_.begin(), listeners_.end(), is_gone), listeners_.end());
 }
 
 size_t FusedMap::clear(const Clearing& clearing) {

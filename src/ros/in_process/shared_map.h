@@ -24,6 +24,11 @@ struct Clearing {
   std::function<bool(const Eigen::Vector3d& p_W)> isInside;
 };
 
+// Is told of each frame that is fused, from where it was seen, and of the map's generation, while the map is
+// locked: it returns fast.
+using FrameListener = std::function<void(const std::shared_ptr<const DepthFrame>& depth, const Pose& T_W_D,
+                                         uint32_t generation)>;
+
 // A map and what fuses into it.
 class FusedMap {
  public:
@@ -43,6 +48,9 @@ class FusedMap {
   const Eigen::Vector3d& cameraPosition() const { return camera_W_; }
   // A frame of that stamp is fused from there.
   void noteFrame(double stamp_s, const Eigen::Vector3d& camera_W);
+  // Tells of frames from now on, for as long as somebody holds the listener.
+  void listen(const std::shared_ptr<const FrameListener>& listener) { listeners_.push_back(listener); }
+  void tell(const std::shared_ptr<const DepthFrame>& depth, const Pose& T_W_D);
   // As SubmapCollection has it; is kept in mind, for a map that is made anew.
   size_t clear(const Clearing& clearing);
   // What was cleared after the frames of these stamps, in this order.
@@ -70,6 +78,7 @@ class FusedMap {
   double last_stamp_s_ = 0.0;  // of the frame that was fused last
   std::vector<std::pair<double, Clearing>> clearings_;
   std::unique_ptr<Mapper> mapper_;
+  std::vector<std::weak_ptr<const FrameListener>> listeners_;
 };
 
 // Where loops of a map are sought, and what its frames are told as LoopClosing::add's `world`.

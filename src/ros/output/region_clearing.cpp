@@ -6,11 +6,6 @@
 #include "ros/conversions/messages.h"
 
 namespace depth_fusion {
-namespace {
-
-constexpr double kWaitForTf_s = 2.0;
-
-}  // namespace
 
 ClearRegion::Response RegionClearing::clear(const ClearRegion::Request& request) {
   const Eigen::Vector3d size(request.size.x, request.size.y, request.size.z);
@@ -38,21 +33,8 @@ ClearRegion::Response RegionClearing::clear(const ClearRegion::Request& request)
 }
 
 Pose RegionClearing::poseInMap(const ClearRegion::Request& request) {
-  const Pose T_F_R = fromMessage(request.pose);
-  const std::string& frame = request.header.frame_id;
-  if (frame.empty() || frame == map_->frame_id) return T_F_R;
-  if (tf_ == nullptr) {
-    tf_ = std::make_unique<tf2_ros::Buffer>();
-    listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_);
-  }
-  try {
-    return fromMessage(
-               tf_->lookupTransform(map_->frame_id, frame, request.header.stamp, ros::Duration(kWaitForTf_s))
-                   .transform) *
-           T_F_R;
-  } catch (const tf2::TransformException& error) {
-    throw Error("tf does not say where " + frame + " is in " + map_->frame_id + ": " + error.what());
-  }
+  return transforms_.poseOf(request.header.frame_id, map_->frame_id, request.header.stamp) *
+         fromMessage(request.pose);
 }
 
 }  // namespace depth_fusion

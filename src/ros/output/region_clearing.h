@@ -2,11 +2,11 @@
 #pragma once
 
 #include <depth_fusion/ClearRegion.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <memory>
 
 #include "ros/in_process/shared_map.h"
+#include "ros/output/map_transforms.h"
 
 namespace depth_fusion {
 
@@ -22,8 +22,7 @@ class RegionClearing {
   Pose poseInMap(const ClearRegion::Request& request);
 
   const std::shared_ptr<SharedMap> map_;
-  std::unique_ptr<tf2_ros::Buffer> tf_;  // null, as is the next, before it is first needed
-  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  MapTransforms transforms_;
 };
 
 }  // namespace depth_fusion

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "depth_fusion/acquisition/device_parameters.h"
+#include "depth_fusion/esdf/esdf_parameters.h"
+#include "depth_fusion/esdf/floor_grid_parameters.h"
 #include "depth_fusion/loops/loop_parameters.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 
@@ -44,6 +46,8 @@ TEST(ParameterRows, EveryMemberOfAStageHasOne) {
   expectRows<ColorFusionParameters>();
   expectRows<ModelViewParameters>();
   expectRows<SurfaceMeshParameters>();
+  expectRows<EsdfParameters>();
+  expectRows<FloorGridParameters>();
 }
 
 TEST(ParameterRows, EveryMemberOfACameraHasOne) {

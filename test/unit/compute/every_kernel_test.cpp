@@ -6,6 +6,7 @@
 
 #include "compute/kernel.h"
 #include "depth_fusion/compute/device_image.h"
+#include "depth_fusion/esdf/esdf.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "depth_fusion/registration/frame_registration.h"
 #include "depth_fusion/surface_mesh/surface_mesh.h"
@@ -178,6 +179,22 @@ TEST_F(EveryKernel, OfBlocksThatComeAndGo) {
   map.setVoxels(kTsdfLayer, slots, map.voxels(kTsdfLayer, slots));
   map.evict(slots);
   EXPECT_EQ(map.usage().blocks, 0u);
+}
+
+TEST_F(EveryKernel, OfTheDistanceField) {
+  const PipelineParameters parameters = coarseParameters();
+  BlockMap map(compute, parameters.map);
+  EsdfParameters cells;
+  cells.voxel_size_m = 0.4f;
+  Esdf esdf(compute, map, cells);
+  DepthPreprocessor preprocessor(compute, parameters.preprocessing, kCamera);
+  TsdfFusion fusion(compute, map, TsdfFusionParameters());
+  StageTimers timers;
+  const DepthFrame& depth = preprocessor.process(roomFrame(0));
+  fusion.integrate(depth, Pose::Identity(), timers);
+  esdf.readMap(timers);
+  esdf.see(depth, Pose::Identity(), timers);
+  EXPECT_FALSE(esdf.update(timers).empty());
 }
 
 TEST_F(EveryKernel, OfAListOfRequestsThatIsFull) {

@@ -7,6 +7,7 @@
 
 #include "compute/embedded_kernels.h"
 #include "compute/kernel.h"
+#include "esdf/types.h"
 #include "shared/types.h"
 #include "shared/types_layout.h"
 

@@ -6,6 +6,7 @@
 #include "ros/input/player_parameters.h"
 #include "ros/input/rgbd_parameters.h"
 #include "ros/nodelets/icp_tracking_nodelet_parameters.h"
+#include "ros/nodelets/navigation_nodelet_parameters.h"
 #include "ros/nodelets/surface_mesh_nodelet_parameters.h"
 #include "ros/nodelets/tsdf_fusion_nodelet_parameters.h"
 #include "ros/output/live_surface_parameters.h"
@@ -53,6 +54,9 @@ TEST(ParameterRows, EveryMemberOfTheNodeletsHasOne) {
   expectRows<SurfaceMeshNodeletParameters>(fieldCount<SurfaceMeshNodeletParameters>() - 2 +
                                            fieldCount<SurfaceMeshParameters>() +
                                            fieldCount<LiveSurfaceParameters>());
+  expectRows<NavigationNodeletParameters>(fieldCount<NavigationNodeletParameters>() - 2 +
+                                          fieldCount<NavigationParameters>() - 1 +
+                                          fieldCount<FloorGridParameters>());
 }
 
 // A nodelet takes the pipeline's stages by their names, bound to its own parameters.
