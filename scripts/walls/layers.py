@@ -11,7 +11,7 @@ FLOORS = [
     ["map", "recording"],
     ["registration", "preprocessing", "texture_odometry", "tsdf_fusion", "color_fusion", "model_view", "icp_tracking",
      "relocalisation", "surface_mesh", "acquisition"],
-    ["loops"],
+    ["loops", "texturing"],
     ["submaps"],
     ["pipeline"],
     ["tools/simulation"],

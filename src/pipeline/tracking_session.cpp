@@ -115,10 +115,10 @@ MotionPrior TrackingSession::takePrepared(const RgbdFrame& frame) {
   return prior;
 }
 
-void TrackingSession::conclude(bool fused) {
+void TrackingSession::conclude(bool fused, const RgbdFrame* pictured) {
   if (fused) {
     check(found_.has_value(), "TrackingSession: no frame is to be concluded");
-    relocaliser_.add(found_->stamp_s, found_->features, found_->result.T_W_D);
+    relocaliser_.add(found_->stamp_s, found_->features, found_->result.T_W_D, pictured);
     tracker_.accept(found_->result);
     const bool begins_map = found_->result.prior == kStart;
     begins_map ? young_map_.begin() : growMap();

@@ -128,7 +128,7 @@ void LiveTracker::apply(const FusionNews& news) {
     case FusionNews::kAccepted:
       map_ = news.view;
       seekLoops();
-      session_->conclude(true);
+      session_->conclude(true, keepsPictures() ? &sent_->rgbd : nullptr);
       return shareKeyframes();
     case FusionNews::kUnanswered:
       ROS_ERROR("no answer from tsdf_fusion to the last frame, which counts as lost");
@@ -161,6 +161,11 @@ std::string LiveTracker::refusal(const SensorFrame& frame) const {
   if (!fusion_.connected()) return "no map to track against; load tsdf_fusion in the same nodelet manager";
   if (fusion_.mode() == MapMode::kPaused) return kPaused;
   return fusion_.isBeforeReset(frame) ? kBeforeReset : "";
+}
+
+bool LiveTracker::keepsPictures() const {
+  const std::shared_ptr<SharedMap> map = map_->map.lock();
+  return map != nullptr && map->has_color;
 }
 
 void LiveTracker::seekLoops() {

@@ -82,6 +82,7 @@ class LiveTracker {
   Pose viewPose() const { return view() == nullptr ? Pose::Identity() : view()->T_W_D; }
   void warnOfNoise();
   // Has the frame that was just fused seek loops.
+  bool keepsPictures() const;  // whether keyframes have them
   void seekLoops();
   // Lets whoever saves the map have its keyframes.
   void shareKeyframes();
