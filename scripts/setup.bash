@@ -13,7 +13,7 @@ unset PYTHONHOME PYTHONPATH
 # what draws plots, and what map files and servers need. The tests start a PostgreSQL server of their own; scripts/check
 # has use for clang-format 14 only, which is Debian 12's.
 TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd oclgrind python3-matplotlib liblmdb-dev libzstd-dev libpq-dev)
-CHECK_PACKAGES=(clang-format clang-tidy postgresql libfcl-dev libompl-dev)
+CHECK_PACKAGES=(clang-format clang-tidy postgresql libfcl-dev libompl-dev libassimp-dev libtinygltf-dev libpcl-dev)
 ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 # Debian carries ROS 1 itself, under its own names.
 DEBIAN_PACKAGES=(

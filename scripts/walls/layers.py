@@ -11,7 +11,7 @@ FLOORS = [
     ["map", "recording"],
     ["registration", "preprocessing", "texture_odometry", "robot_motion", "tsdf_fusion", "color_fusion", "model_view",
      "icp_tracking", "relocalisation", "surface_mesh", "esdf", "acquisition"],
-    ["loops"],
+    ["loops", "texturing"],
     ["submaps"],
     ["pipeline"],
     ["tools/simulation"],

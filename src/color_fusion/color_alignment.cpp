@@ -142,16 +142,21 @@ Pose alignOnLevel(const std::vector<Point>& points, const Level& level, const Po
 
 Pose alignColor(const std::vector<SurfaceColor>& surface, const ColorImage& image, const Eigen::Array3d& gain,
                 const Pose& T_C_W) {
+  return alignColor(surface, image, gain, T_C_W, T_C_W);
+}
+
+Pose alignColor(const std::vector<SurfaceColor>& surface, const ColorImage& image, const Eigen::Array3d& gain,
+                const Pose& T_C_W, const Pose& start_T_C_W) {
   const std::vector<Point> points = brightnessOf(surface);
-  if (points.size() < kMinPoints) return T_C_W;
+  if (points.size() < kMinPoints) return start_T_C_W;
   const std::vector<Level> levels = pyramidOf(brightnessOf(image, gain), image.camera);
-  Pose aligned = T_C_W;
+  Pose aligned = start_T_C_W;
   for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
     aligned = alignOnLevel(points, *level, T_C_W, aligned);
   }
-  const System before = systemAt(points, levels.front(), T_C_W);
+  const System before = systemAt(points, levels.front(), start_T_C_W);
   const System after = systemAt(points, levels.front(), aligned);
-  return after.points >= kMinPoints && after.meanCost() < before.meanCost() ? aligned : T_C_W;
+  return after.points >= kMinPoints && after.meanCost() < before.meanCost() ? aligned : start_T_C_W;
 }
 
 }  // namespace depth_fusion

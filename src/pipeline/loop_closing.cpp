@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "depth_fusion/common/error.h"
@@ -16,7 +15,6 @@ namespace {
 
 constexpr size_t kMostWaiting = 8;
 constexpr int kNiceness = 10;  // of the thread: tracking comes first
-constexpr int kJpegQuality = 90;
 
 std::string rowKey(uint32_t number) { return "keyframe " + std::to_string(number); }
 
@@ -29,12 +27,6 @@ Keyframe viewOnly(const CameraIntrinsics& camera, const Pose& T_W_D, double stam
   keyframe.T_W_D = T_W_D;
   keyframe.stamp_s = stamp_s;
   return keyframe;
-}
-
-std::string jpegOf(const cv::Mat& color) {
-  std::vector<uchar> bytes;
-  cv::imencode(".jpg", color, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace

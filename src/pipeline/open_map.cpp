@@ -7,6 +7,7 @@
 
 #include "depth_fusion/compute/device_image.h"
 #include "depth_fusion/pipeline/stored_map.h"
+#include "depth_fusion/submaps/world_mesh.h"
 
 namespace depth_fusion {
 namespace {
@@ -22,7 +23,8 @@ PipelineParameters adopted(PipelineParameters parameters, Database& database) {
 }  // namespace
 
 OpenMap::OpenMap(ComputeContext& compute, const PipelineParameters& parameters, Database& database)
-    : name_(database.name()),
+    : compute_(compute),
+      name_(database.name()),
       parameters_(adopted(parameters, database)),
       map_(compute, parameters_.map),
       submaps_(map_, parameters_.submaps) {
@@ -30,6 +32,11 @@ OpenMap::OpenMap(ComputeContext& compute, const PipelineParameters& parameters, 
   loaded_ = read.loaded();
   read.moveTo(submaps_);
   mapper_ = std::make_unique<Mapper>(compute, map_, submaps_, parameters_, loaded_.description.camera);
+}
+
+MeshStatistics OpenMap::exportMesh(MeshSink& sink) {
+  WorldSnapshot world(submaps_);
+  return exportWorldMesh(compute_, world, sink, parameters_.surface_mesh, world.hasColor());
 }
 
 const ModelView& OpenMap::render(const Pose& T_W_D) {

@@ -6,17 +6,22 @@
 
 #include "depth_fusion/pipeline/mapper.h"
 #include "depth_fusion/submaps/map_file.h"
+#include "depth_fusion/surface_mesh/surface_mesh.h"
 
 namespace depth_fusion {
 
 class OpenMap {
  public:
-  // The parameters are those of the map where it has its own. Throws Error if it is damaged.
+  // Keeps a reference. The parameters are those of the map where it has its own. Throws Error if it is
+  // damaged.
   OpenMap(ComputeContext& compute, const PipelineParameters& parameters, Database& database);
 
   const std::string& name() const { return name_; }
   const PipelineParameters& parameters() const { return parameters_; }
   const LoadedMap& loaded() const { return loaded_; }
+
+  // The surface, with colours if the map has them. Throws Error if the sink does.
+  MeshStatistics exportMesh(MeshSink& sink);
 
   // The map as its sensor sees it from there; valid until the next call.
   const ModelView& render(const Pose& T_W_D);
@@ -24,6 +29,7 @@ class OpenMap {
   Keyframe seen(const Keyframe& keyframe);
 
  private:
+  ComputeContext& compute_;
   const std::string name_;
   PipelineParameters parameters_;
   BlockMap map_;

@@ -36,7 +36,7 @@ FrameResult ReconstructionPipeline::processFrame(const RgbdFrame& frame, const R
   fuseAndRender(frame, result);
   ahead_.wait();
   if (loops_ && result.fusion.fused()) loops_->add(frame, session_.features(), result.tracking.T_W_D, *view_);
-  session_.conclude(result.fusion.fused());
+  session_.conclude(result.fusion.fused(), parameters_.map.color ? &frame : nullptr);
   return result;
 }
 

@@ -145,10 +145,10 @@ MotionPrior TrackingSession::takePrepared(const RgbdFrame& frame) {
   return prior;
 }
 
-void TrackingSession::conclude(bool fused) {
+void TrackingSession::conclude(bool fused, const RgbdFrame* pictured) {
   if (fused) {
     check(found_.has_value(), "TrackingSession: no frame is to be concluded");
-    relocaliser_.add(found_->stamp_s, found_->features, found_->result.T_W_D);
+    relocaliser_.add(found_->stamp_s, found_->features, found_->result.T_W_D, pictured);
     carried_ = found_->carried;
     if (drift_.add(found_->result.T_W_D, found_->result.covariance, carried_)) carried_.setZero();
     tracker_.accept(found_->result);

@@ -1,11 +1,13 @@
 #include "depth_fusion/relocalisation/keyframe.h"
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace depth_fusion {
 namespace {
 
 constexpr double kThumbnailBlur_px = 2.0;
+constexpr int kJpegQuality = 95;
 
 }  // namespace
 
@@ -18,6 +20,17 @@ cv::Mat thumbnailOf(const FrameFeatures& features) {
   thumbnail -= cv::mean(thumbnail)[0];
   const double norm = cv::norm(thumbnail);
   return norm > 0.0 ? cv::Mat(thumbnail / norm) : thumbnail;
+}
+
+std::string jpegOf(const cv::Mat& color) {
+  std::vector<uchar> bytes;
+  cv::imencode(".jpg", color, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  return {bytes.begin(), bytes.end()};
+}
+
+KeyframeColor colorOf(const RgbdFrame& frame) {
+  if (!colorProblem(frame).empty()) return {};
+  return {jpegOf(frame.color), colorCamera(frame), frame.T_C_D.value_or(Pose::Identity())};
 }
 
 Keyframe keyframeOf(const FrameFeatures& features, const Pose& T_W_D, double stamp_s) {

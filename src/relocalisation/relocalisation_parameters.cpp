@@ -8,8 +8,10 @@ ParameterTable RelocalisationParameters::table() {
              "distance between keyframes that see the same way"),
       number("keyframe_angle_rad", &keyframe_angle_rad, 0.001, 3.1416,
              "angle between keyframes at the same place"),
-      number("max_keyframes", &max_keyframes, 0, 100000,
-             "keyframes kept in memory, some 200 kB each; 0: no relocalisation"),
+      number(
+          "max_keyframes", &max_keyframes, 0, 100000,
+          "keyframes kept in memory, some 200 kB each, 300 with their pictures where the map has colour; 0: "
+          "no relocalisation"),
       number("max_candidates", &max_candidates, 1, 1000, "keyframes that a lost frame is matched to"),
       number("min_inlier_fraction", &min_inlier_fraction, 0.0, 1.0,
              "a lost frame stays lost if a smaller part of its points matches the model view"),

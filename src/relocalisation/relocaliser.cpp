@@ -40,12 +40,15 @@ void Relocaliser::setParameters(const RelocalisationParameters& parameters) {
   dropSurplus();
 }
 
-void Relocaliser::add(double stamp_s, const FrameFeatures& features, const Pose& T_W_D) {
+void Relocaliser::add(double stamp_s, const FrameFeatures& features, const Pose& T_W_D,
+                      const RgbdFrame* pictured) {
   if (!features.reason.empty() || parameters_.max_keyframes == 0) return;
   for (const KeyframePtr& keyframe : keyframes_) {
     if (separation(keyframe->T_W_D, T_W_D, parameters_) < 1.0) return;
   }
-  keyframes_.push_back(std::make_shared<const Keyframe>(keyframeOf(features, T_W_D, stamp_s)));
+  const auto keyframe = std::make_shared<Keyframe>(keyframeOf(features, T_W_D, stamp_s));
+  if (pictured != nullptr) keyframe->color = colorOf(*pictured);
+  keyframes_.push_back(keyframe);
   dropSurplus();
 }
 

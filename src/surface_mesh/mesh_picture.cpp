@@ -1,7 +1,9 @@
 #include "depth_fusion/surface_mesh/mesh_picture.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "surface_mesh/triangle_pixels.h"
 
 namespace depth_fusion {
 namespace {
@@ -64,41 +66,22 @@ std::vector<Corner> projectVertices(const TriangleMesh& mesh, const CameraIntrin
   return corners;
 }
 
-// Returns twice the area of the triangle a, b, (u, v). It is positive for a triangle that is clockwise in the
-// picture, where v points down.
-float area(const Corner& a, const Corner& b, float u, float v) {
-  return (b.u - a.u) * (v - a.v) - (b.v - a.v) * (u - a.u);
-}
-
-void drawPixel(Canvas& canvas, const Corner (&t)[3], float whole, int u, int v) {
-  const auto fu = static_cast<float>(u);
-  const auto fv = static_cast<float>(v);
-  const float w0 = area(t[1], t[2], fu, fv) / whole;
-  const float w1 = area(t[2], t[0], fu, fv) / whole;
-  const float w2 = 1.0f - w0 - w1;
-  if (w0 < 0.0f || w1 < 0.0f || w2 < 0.0f) return;
-  const float inverse_depth = w0 * t[0].inverse_depth + w1 * t[1].inverse_depth + w2 * t[2].inverse_depth;
-  const size_t pixel = static_cast<size_t>(v) * canvas.width + u;
-  if (inverse_depth <= canvas.inverse_depths[pixel]) return;
-  canvas.inverse_depths[pixel] = inverse_depth;
-  const cv::Vec3f color_by_depth =
-      w0 * t[0].color_by_depth + w1 * t[1].color_by_depth + w2 * t[2].color_by_depth;
-  const cv::Vec3f color = color_by_depth * (1.0f / inverse_depth);
-  canvas.colours[pixel] = whole < 0.0f ? color : cv::Vec3f(color.mul(canvas.tint_from_behind));
-}
-
 void drawTriangle(Canvas& canvas, const Corner (&t)[3]) {
-  const float whole = area(t[0], t[1], t[2].u, t[2].v);
-  if (whole == 0.0f) return;
-  const auto u = std::minmax({t[0].u, t[1].u, t[2].u});
-  const auto v = std::minmax({t[0].v, t[1].v, t[2].v});
-  const float right = std::min(u.second, static_cast<float>(canvas.width - 1));
-  const float bottom = std::min(v.second, static_cast<float>(canvas.height - 1));
-  for (auto y = static_cast<int>(std::ceil(std::max(v.first, 0.0f))); static_cast<float>(y) <= bottom; ++y) {
-    for (auto x = static_cast<int>(std::ceil(std::max(u.first, 0.0f))); static_cast<float>(x) <= right; ++x) {
-      drawPixel(canvas, t, whole, x, y);
-    }
-  }
+  const std::array<cv::Point2f, 3> pixels = {cv::Point2f(t[0].u, t[0].v), cv::Point2f(t[1].u, t[1].v),
+                                             cv::Point2f(t[2].u, t[2].v)};
+  const bool is_front = twiceTheArea(pixels[0], pixels[1], pixels[2]) < 0.0f;
+  forEachPixelOf(pixels, {canvas.width, canvas.height}, 0.0f,
+                 [&](const cv::Point& at, const std::array<float, 3>& w) {
+                   const float inverse_depth =
+                       w[0] * t[0].inverse_depth + w[1] * t[1].inverse_depth + w[2] * t[2].inverse_depth;
+                   const size_t pixel = static_cast<size_t>(at.y) * canvas.width + at.x;
+                   if (inverse_depth <= canvas.inverse_depths[pixel]) return;
+                   canvas.inverse_depths[pixel] = inverse_depth;
+                   const cv::Vec3f color_by_depth =
+                       w[0] * t[0].color_by_depth + w[1] * t[1].color_by_depth + w[2] * t[2].color_by_depth;
+                   const cv::Vec3f color = color_by_depth * (1.0f / inverse_depth);
+                   canvas.colours[pixel] = is_front ? color : cv::Vec3f(color.mul(canvas.tint_from_behind));
+                 });
 }
 
 cv::Mat averaged(const Canvas& canvas, int width, int height) {

@@ -32,8 +32,7 @@ std::string withoutLinks(const std::string& path) {
 
 WholeFile::WholeFile(const std::string& path)
     : path_(path), part_path_(isDevice(path) ? "" : withoutLinks(path) + ".part") {
-  const std::string& opened = part_path_.empty() ? path_ : part_path_;
-  file_ = open(opened.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  open();
   if (file_ < 0) fail("cannot be created");
 }
 
@@ -41,7 +40,18 @@ WholeFile::~WholeFile() {
   unmap();
   if (file_ < 0) return;
   close(file_);
-  if (!part_path_.empty()) unlink(part_path_.c_str());
+  if (!part_path_.empty() && has_name_) unlink(part_path_.c_str());
+}
+
+void WholeFile::open() {
+  if (!part_path_.empty()) {
+    const std::string folder = std::filesystem::path(part_path_).parent_path().string();
+    file_ = ::open(folder.empty() ? "." : folder.c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
+    if (file_ >= 0) return;
+  }
+  const std::string& opened = part_path_.empty() ? path_ : part_path_;
+  file_ = ::open(opened.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  has_name_ = file_ >= 0;
 }
 
 void WholeFile::writeAt(uint64_t offset, const void* data, size_t bytes) {
@@ -71,14 +81,25 @@ void WholeFile::cutTo(uint64_t bytes) {
 
 void WholeFile::commit() {
   unmap();
-  if (close(std::exchange(file_, -1)) == 0 &&
-      (part_path_.empty() || std::rename(part_path_.c_str(), withoutLinks(path_).c_str()) == 0)) {
-    return;
-  }
+  if (part_path_.empty() ? close(std::exchange(file_, -1)) == 0 : replace()) return;
   const int reason = errno;
-  if (!part_path_.empty()) unlink(part_path_.c_str());
+  if (!part_path_.empty() && has_name_) unlink(part_path_.c_str());
   errno = reason;
   fail("cannot be written");
+}
+
+// Returns whether the file stands at the path.
+bool WholeFile::replace() {
+  if (!has_name_) {
+    // No other name can be replaced by one for a nameless file: it gets the part's for a moment.
+    unlink(part_path_.c_str());
+    const std::string nameless = "/proc/self/fd/" + std::to_string(file_);
+    if (linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, part_path_.c_str(), AT_SYMLINK_FOLLOW) != 0)
+      return false;
+    has_name_ = true;
+  }
+  return close(std::exchange(file_, -1)) == 0 &&
+         std::rename(part_path_.c_str(), withoutLinks(path_).c_str()) == 0;
 }
 
 void WholeFile::unmap() {

@@ -7,8 +7,10 @@
 
 namespace depth_fusion {
 
-// Writes PATH.part, which commit() renames to PATH. Without commit() nothing is left of it, and what stood at
-// the path stays. Devices are written to directly. Errors name the path and the reason.
+// Writes a file without a name, which commit() gives the name PATH. Without commit() nothing is left of it,
+// however the process ends, and what stood at the path stays. A file system that knows no files without names
+// has PATH.part meanwhile, which stays if the process is killed. Devices are written to directly. Errors name
+// the path and the reason.
 class WholeFile {
  public:
   // Throws Error if the file cannot be created.
@@ -25,11 +27,14 @@ class WholeFile {
   void commit();
 
  private:
+  void open();
+  bool replace();
   void unmap();
   [[noreturn]] void fail(const std::string& action) const;
 
   std::string path_;
   std::string part_path_;  // empty for a device
+  bool has_name_ = false;  // PATH.part, or the device's
   int file_ = -1;
   void* view_ = nullptr;
   size_t view_bytes_ = 0;

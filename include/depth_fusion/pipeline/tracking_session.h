@@ -42,9 +42,10 @@ class TrackingSession {
   // Does the part of the next step() that needs neither view nor map, beside whatever else is done with this
   // step's pose; that pose is taken for good until conclude() says otherwise.
   void prepareAhead(const RgbdFrame& frame, const TexturedFrame& texture, StageTimers& timers);
-  // Says whether the frame of the last step is fused. If it is, it may become a keyframe. If it is not, all
-  // is as if its pose had never been found, and the next frame is searched for.
-  void conclude(bool fused);
+  // Says whether the frame of the last step is fused. If it is, it may become a keyframe, with its colour
+  // image if that frame is given. If it is not, all is as if its pose had never been found, and the next
+  // frame is searched for.
+  void conclude(bool fused, const RgbdFrame* pictured = nullptr);
 
   // Preprocesses a frame whose pose is known from elsewhere; the next one is predicted from there.
   void follow(const RgbdFrame& frame, const Pose& T_W_D, StageTimers& timers);

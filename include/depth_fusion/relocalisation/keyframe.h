@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "depth_fusion/frames/frame_features.h"
+#include "depth_fusion/frames/rgbd_frame.h"
 #include "depth_fusion/relocalisation/keyframe_view.h"
 
 namespace depth_fusion {
@@ -29,14 +30,20 @@ struct Keyframe {
   Pose T_W_D = Pose::Identity();
   double stamp_s = 0.0;  // of the frame
 
+  KeyframeColor color;  // the frame's, where the map has colour: textures are made of it
+
   // What loops are closed by; a keyframe of the relocaliser alone has none of it.
-  KeyframeView view;    // the map as the depth camera saw it then
-  KeyframeColor color;  // the frame's, where the map has colour
-  double way_m = 0.0;   // that the sensor had gone
+  KeyframeView view;   // the map as the depth camera saw it then
+  double way_m = 0.0;  // that the sensor had gone
 };
 
 // What a frame looks like from afar. It has features.
 cv::Mat thumbnailOf(const FrameFeatures& features);
+
+// An image, CV_8UC3 or CV_8UC1, in few bytes.
+std::string jpegOf(const cv::Mat& color);
+// The frame's colour image; without one that fits its camera, none.
+KeyframeColor colorOf(const RgbdFrame& frame);
 
 // The frame without what loops are closed by. It has features.
 Keyframe keyframeOf(const FrameFeatures& features, const Pose& T_W_D, double stamp_s);

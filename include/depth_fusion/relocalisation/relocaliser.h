@@ -14,8 +14,9 @@ class Relocaliser {
   void setParameters(const RelocalisationParameters& parameters);
 
   // Keeps the frame as a keyframe if it has features and no keyframe is near. When there are too many, the
-  // one that stands closest to another goes.
-  void add(double stamp_s, const FrameFeatures& features, const Pose& T_W_D);
+  // one that stands closest to another goes. With `pictured`, the frame itself, it has its colour image, too.
+  void add(double stamp_s, const FrameFeatures& features, const Pose& T_W_D,
+           const RgbdFrame* pictured = nullptr);
   // Forgets the keyframes that there are for those of another map, all of which are kept until one comes.
   void reset(Keyframes keyframes = {});
 

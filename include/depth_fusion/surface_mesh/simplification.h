@@ -1,6 +1,9 @@
 // Meshes of fewer triangles.
 #pragma once
 
+#include <cstddef>
+#include <limits>
+
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
 
 namespace depth_fusion {
@@ -17,5 +20,16 @@ bool canSimplify();
 // position, normal and colour. Throws Error for another ratio, and for one below 1 where depth_fusion was
 // built without meshoptimizer.
 TriangleMesh simplified(const TriangleMesh& mesh, double ratio, OpenBorders borders = OpenBorders::kMayMove);
+
+// How far a mesh is simplified: until it has so few triangles, or until one more step would move the surface
+// by more than the error, whichever comes first.
+struct SimplificationGoal {
+  size_t triangles = 0;
+  double max_error_m = std::numeric_limits<double>::infinity();
+};
+
+// Throws Error where depth_fusion was built without meshoptimizer.
+TriangleMesh simplified(const TriangleMesh& mesh, const SimplificationGoal& goal,
+                        OpenBorders borders = OpenBorders::kMayMove);
 
 }  // namespace depth_fusion

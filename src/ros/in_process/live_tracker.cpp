@@ -138,7 +138,7 @@ void LiveTracker::apply(const FusionNews& news) {
     case FusionNews::kAccepted:
       map_ = news.view;
       seekLoops();
-      session_->conclude(true);
+      session_->conclude(true, keepsPictures() ? &sent_->rgbd : nullptr);
       return shareKeyframes();
     case FusionNews::kUnanswered:
       ROS_ERROR("no answer from tsdf_fusion to the last frame, which counts as lost");
@@ -187,6 +187,11 @@ void LiveTracker::beginPart() {
   session_->beginPart();
   map_ = nullptr;
   fusion_.begin(Beginning::kPart);
+}
+
+bool LiveTracker::keepsPictures() const {
+  const std::shared_ptr<SharedMap> map = map_->map.lock();
+  return map != nullptr && map->has_color;
 }
 
 void LiveTracker::seekLoops() {

@@ -92,6 +92,7 @@ class LiveTracker {
   // What seeks loops in the map; nothing where they are not sought.
   LoopsOfMap loops() const;
   // Has the frame that was just fused seek loops.
+  bool keepsPictures() const;  // whether keyframes have them
   void seekLoops();
   // The sensor has been lost for long: another part of the map begins with the next frame, where loops are
   // sought that may join it with the rest.

@@ -92,7 +92,10 @@ class SharedMap {
  public:
   SharedMap(std::shared_ptr<ComputeContext> context, const PipelineParameters& parameters,
             const std::string& frame)
-      : compute(std::move(context)), frame_id(frame), fused_(*compute, parameters) {}
+      : compute(std::move(context)),
+        frame_id(frame),
+        has_color(parameters.map.color),
+        fused_(*compute, parameters) {}
 
   // Calls function(FusedMap&) while no other thread has the map, and returns what it returns. No reference
   // into the map may outlive the call but to be used in another one.
@@ -113,6 +116,7 @@ class SharedMap {
 
   const std::shared_ptr<ComputeContext> compute;
   const std::string frame_id;  // of the map's coordinates
+  const bool has_color;
 
  private:
   std::mutex mutex_;

@@ -9,11 +9,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/submaps/world_mesh.h"
 #include "depth_fusion/surface_mesh/mesh_file.h"
-#include "depth_fusion/surface_mesh/simplification.h"
+#include "depth_fusion/surface_mesh/mesh_finish.h"
 
 namespace depth_fusion {
 namespace {
@@ -90,12 +91,16 @@ std::string expanded(const std::string& path) {
   return result;
 }
 
-// 1 if all triangles are to be kept.
-double checkedShare(double simplification) {
-  check(simplification >= 0.0 && simplification <= 1.0,
+// Throws Error for numbers that make no sense.
+MeshFinish finishOf(const ExportMesh::Request& request) {
+  const double share = request.simplification;
+  check(share >= 0.0 && share <= 1.0,
         "simplification is the share of the triangles to keep, from 0 to 1 (0 or 1: all); it is " +
-            std::to_string(simplification));
-  return simplification == 0.0 ? 1.0 : simplification;
+            std::to_string(share));
+  const MeshFinish finish{request.min_island, request.max_hole, share == 0.0 ? 1.0 : share,
+                          request.max_triangles, request.max_error};
+  checkFinish(finish);
+  return finish;
 }
 
 void checkFolder(const std::string& path) {
@@ -103,10 +108,6 @@ void checkFolder(const std::string& path) {
   check(fs::is_directory(folder),
         "the folder " + folder.string() + " does not exist; make it, or choose another path");
   check(!fs::is_directory(path), path + " is a folder; give the name of a file");
-}
-
-bool hasColor(SharedMap& map) {
-  return map.locked([](FusedMap& fused) { return fused.map().parameters().color; });
 }
 
 std::unique_ptr<WorldSnapshot> snapshotOf(SharedMap& map, const std::string& no_surface) {
@@ -129,11 +130,11 @@ std::string absolutePath(const std::string& path) {
 ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,
                                 const SurfaceMeshParameters& parameters) {
   check(!request.path.empty(), "path is empty; give the mesh file's name, mesh.ply for instance");
-  const double share = checkedShare(request.simplification);
+  const MeshFinish finish = finishOf(request);
   const std::string path = absolutePath(request.path);
   checkFolder(path);
-  const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format);
-  const bool lacks_color = request.color && !hasColor(map);
+  const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format, UpAxis::kZ);
+  const bool lacks_color = request.color && !map.has_color;
   const std::string no_surface =
       std::string("the map has no surface yet; nothing was written") +
       (lacks_color ? std::string("; it will have no colour: ") + kStartWithColor : "");
@@ -143,10 +144,12 @@ ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& reque
   const std::unique_ptr<ComputeContext> queue = map.compute->anotherQueue();
   SurfaceMeshParameters batches = parameters;
   batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);
-  if (share < 1.0) {
+  if (finish.changesMesh()) {
     TriangleMesh mesh;
     exportWorldMesh(*queue, *snapshot, mesh, batches, request.color, sayProgress);
-    sendMesh(simplified(mesh, share), sink);
+    const FinishedMesh result = finished(std::move(mesh), finish);
+    sendMesh(result.mesh, sink);
+    ROS_INFO_STREAM("export_mesh: " << result.remark);
   } else {
     exportWorldMesh(*queue, *snapshot, sink, batches, request.color, sayProgress);
   }

@@ -146,7 +146,8 @@ class MeshFile : public testing::Test {
 
 class MeshFileOfFormat : public MeshFile, public testing::WithParamInterface<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(Formats, MeshFileOfFormat, testing::Values("ply", "obj", "stl"));
+INSTANTIATE_TEST_SUITE_P(Formats, MeshFileOfFormat,
+                         testing::Values("ply", "obj", "stl", "glb", "dae", "pcd"));
 
 TEST_P(MeshFileOfFormat, piecesInAnyOrderGiveTheSameFile) {
   const TriangleMesh mesh = octahedron(true);
@@ -230,10 +231,16 @@ TEST_F(MeshFile, formatIsThatOfTheEndingUnlessGiven) {
 }
 
 TEST_F(MeshFile, unknownFormatsAreNamedWithTheChoices) {
-  expectError([&] { createMeshFile(pathOf("mesh.glb")); }, {pathOf("mesh.glb"), "'glb'", "ply, obj, stl"});
-  expectError([&] { createMeshFile(pathOf("mesh.ply"), "PCD"); }, {"'PCD'", "ply, obj, stl"});
-  expectError([&] { createMeshFile(pathOf("mesh")); }, {"no ending", "ply, obj, stl"});
+  const std::string choices = "ply, obj, stl, glb, dae, pcd";
+  expectError([&] { createMeshFile(pathOf("mesh.fbx")); }, {pathOf("mesh.fbx"), "'fbx'", choices});
+  expectError([&] { createMeshFile(pathOf("mesh.ply"), "PCD"); }, {"'PCD'", choices});
+  expectError([&] { createMeshFile(pathOf("mesh")); }, {"no ending", choices});
   EXPECT_TRUE(files().empty());
+}
+
+TEST_F(MeshFile, glbThatIsTooLargeIsRefused) {
+  const auto file = createMeshFile(pathOf("mesh.glb"));
+  expectError([&] { file->begin({200000000, 400000000, true}); }, {pathOf("mesh.glb"), "4096", "ply"});
 }
 
 }  // namespace
