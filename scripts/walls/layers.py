@@ -17,6 +17,7 @@ FLOORS = [
     ["tools/simulation"],
     ["tools/evaluation", "tools/calibration"],
     ["tools/plots"],
+    ["tools/report"],
     ["ros/callbacks", "ros/conversions"],
     ["ros/parameters"],
     ["ros/bags"],

@@ -76,6 +76,9 @@ void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
       "and correct it; see docs/calibration.md");
   app.add_flag("--single-pass", options.single_pass,
                "seek no loops: the map is what was fused while tracking; see docs/loops.md");
+  app.add_flag("--report", options.report,
+               "report.html, too: pictures, the model to be turned in a browser, tracking, times, errors "
+               "where the recording has the truth, and what to try; see docs/viewing.md");
   app.add_flag("--no-mesh", options.no_mesh, "track and fuse only, for timing");
   app.add_flag("--print-params", arguments.print_parameters,
                "list every parameter with its value, range and meaning");

@@ -19,6 +19,7 @@ struct Options {
   int height = 960;
   double view_deg = 60.0;
   bool shaded = false;
+  bool open = false;
 };
 
 void addOptions(CLI::App& app, Options& options) {
@@ -33,7 +34,10 @@ void addOptions(CLI::App& app, Options& options) {
       ->excludes(view);
   app.add_option("--width", options.width, "of the picture, pixels")->check(CLI::Range(16, 16384));
   app.add_option("--height", options.height, "of the picture, pixels")->check(CLI::Range(16, 16384));
-  app.add_flag("--shaded", options.shaded, "grey and lit from the camera, even if the mesh has colours");
+  auto* shaded =
+      app.add_flag("--shaded", options.shaded, "grey and lit from the camera, even if the mesh has colours");
+  app.add_flag("--open", options.open, "leave out what is seen from behind: look into a room from outside")
+      ->excludes(shaded);
   app.add_option("--field-of-view", options.view_deg, "horizontal, degrees")->check(CLI::Range(1.0, 170.0));
 }
 
@@ -51,8 +55,10 @@ void render(const Options& options) {
   const CameraIntrinsics camera =
       pictureCamera(options.width, options.height, options.view_deg * CV_PI / 180.0);
   const Pose T_W_C = options.pose.empty() ? viewOf(mesh, camera, options.view) : poseFrom(options.pose);
-  writePicture(options.output,
-               renderMesh(mesh, camera, T_W_C, options.shaded ? MeshPaint::kShaded : MeshPaint::kColors));
+  const MeshPaint paint = options.shaded ? MeshPaint::kShaded
+                          : options.open ? MeshPaint::kOpen
+                                         : MeshPaint::kColors;
+  writePicture(options.output, renderMesh(mesh, camera, T_W_C, paint));
   std::cout << options.output << ": " << mesh.triangles.size() << " triangles\n";
 }
 

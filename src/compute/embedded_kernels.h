@@ -1,4 +1,4 @@
-// The text of the files below kernels/, compiled into the library (see cmake/EmbedKernels.cmake).
+// The text of the files below kernels/, compiled into the library (see cmake/EmbedFiles.cmake).
 #pragma once
 
 #include <string>

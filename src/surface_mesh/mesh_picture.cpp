@@ -24,13 +24,15 @@ struct Corner {
 
 struct Canvas {
   int width, height;
+  bool open;                   // what is seen from behind is left out
   cv::Vec3f tint_from_behind;  // factors on a surface's colour
   std::vector<float> inverse_depths;
   std::vector<cv::Vec3f> colours;
 
-  Canvas(int w, int h, const cv::Vec3f& tint)
+  Canvas(int w, int h, bool without_behind, const cv::Vec3f& tint)
       : width(w),
         height(h),
+        open(without_behind),
         tint_from_behind(tint),
         inverse_depths(static_cast<size_t>(w) * h, 0.0f),
         colours(static_cast<size_t>(w) * h, kBackground) {}
@@ -70,6 +72,7 @@ void drawTriangle(Canvas& canvas, const Corner (&t)[3]) {
   const std::array<cv::Point2f, 3> pixels = {cv::Point2f(t[0].u, t[0].v), cv::Point2f(t[1].u, t[1].v),
                                              cv::Point2f(t[2].u, t[2].v)};
   const bool is_front = twiceTheArea(pixels[0], pixels[1], pixels[2]) < 0.0f;
+  if (canvas.open && !is_front) return;
   forEachPixelOf(pixels, {canvas.width, canvas.height}, 0.0f,
                  [&](const cv::Point& at, const std::array<float, 3>& w) {
                    const float inverse_depth =
@@ -103,10 +106,10 @@ cv::Mat averaged(const Canvas& canvas, int width, int height) {
 
 cv::Mat renderMesh(const TriangleMesh& mesh, const CameraIntrinsics& camera, const Pose& T_W_C,
                    MeshPaint paint) {
-  const bool colored = paint == MeshPaint::kColors && !mesh.colors.empty();
+  const bool colored = paint != MeshPaint::kShaded && !mesh.colors.empty();
   const CameraIntrinsics fine = magnified(camera, kSubpixels);
   const std::vector<Corner> corners = projectVertices(mesh, fine, T_W_C, colored);
-  Canvas canvas(fine.width, fine.height, colored ? kTintOfColored : kTintOfShaded);
+  Canvas canvas(fine.width, fine.height, paint == MeshPaint::kOpen, colored ? kTintOfColored : kTintOfShaded);
   for (const MeshTriangle& triangle : mesh.triangles) {
     const Corner t[3] = {corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]};
     if (t[0].inverse_depth > 0.0f && t[1].inverse_depth > 0.0f && t[2].inverse_depth > 0.0f)

@@ -7,6 +7,7 @@
 #include "depth_fusion/recording/trajectory_file.h"
 #include "recording/timed_files.h"
 #include "support/apps.h"
+#include "support/html_check.h"
 
 namespace depth_fusion {
 namespace {
@@ -210,6 +211,22 @@ TEST_F(Applications, color_is_fused_drawn_and_reported) {
     return fileBytes(inFolder("color.png"));
   };
   EXPECT_NE(picture({}), picture({"--shaded"}));
+}
+
+TEST_F(Applications, page_shows_model_way_and_errors) {
+  const std::string output = inFolder("page_out");
+  const AppRun run = runApp(
+      "reconstruct", {"--input", room(), "--output", output, "--color", "--voxel-size", "0.02", "--report"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.output.find("report.html"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(out() + "/report.html"));
+  const std::string page = fileBytes(output + "/report.html");
+  expectWellFormed(page);
+  expectAlone(page);
+  for (const std::string text : {"<h1>room</h1>", "All 10 frames were tracked", "id=\"plan\"", "id=\"model\"",
+                                 "id=\"errors\"", "The error of the surface", "true way", "icp_tracking"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  EXPECT_LT(page.size(), 8u << 20);
 }
 
 TEST_F(Applications, help_names_every_option) {

@@ -14,6 +14,7 @@ namespace depth_fusion {
 enum class MeshPaint {
   kColors,  // the vertices' colours as they are, dark where seen from behind; a mesh without is shaded
   kShaded,  // bluish grey, lit from the camera, red where seen from behind
+  kOpen,    // as kColors, but what is seen from behind is left out: one looks into a room from outside
 };
 
 // Draws the triangles in front of the camera, as CV_8UC3, BGR. Triangles that reach behind the camera are

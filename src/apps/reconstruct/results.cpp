@@ -3,6 +3,7 @@
 #include <functional>
 #include <iostream>
 
+#include "apps/reconstruct/page.h"
 #include "depth_fusion/submaps/world_mesh.h"
 #include "depth_fusion/surface_mesh/ply.h"
 
@@ -47,6 +48,7 @@ void writeResults(const RunOptions& options, ComputeContext& compute, Reconstruc
     writeReport(folder + "report.json", log.input(), compute, pipeline, log.counts(),
                 tracking_peak_rss_bytes);
   });
+  if (options.report) attempt(log, [&] { writePage(options, compute, pipeline, log); });
 }
 
 }  // namespace depth_fusion

@@ -6,8 +6,8 @@
 
 namespace depth_fusion {
 
-// Writes trajectory and report, and the mesh and the map where they are wanted. All are tried; of what fails,
-// the log complains. Null for `saver`: the map is saved nowhere.
+// Writes trajectory and report, and the mesh, the map and the page where they are wanted. All are tried; of
+// what fails, the log complains. Null for `saver`: the map is saved nowhere.
 void writeResults(const RunOptions& options, ComputeContext& compute, ReconstructionPipeline& pipeline,
                   MapSaver* saver, RunLog& log);
 

@@ -99,7 +99,7 @@ void Run::fuseRecording() {
     log_.begin(*frame);
     std::optional<RgbdFrame> next = mayReadOn() ? nextFrame() : std::nullopt;
     const FrameResult result = fuse(*frame, next ? &*next : nullptr);
-    log_.note(*frame, result);
+    log_.note(*frame, result, mapBytes(pipeline_->map().parameters(), pipeline_->submaps().blockCount()));
     if (const auto depth = pipeline_->depth()) log_.noteNoise(options_.parameters.depth_sensor, *depth);
     showProgress(false);
     frame = std::move(next);

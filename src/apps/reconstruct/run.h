@@ -20,6 +20,7 @@ struct RunOptions {
   std::shared_ptr<Database> stored;  // that map, open
   size_t max_frames = 0;             // 0 = all
   bool no_mesh = false;
+  bool report = false;          // report.html is written
   bool self_calibrate = false;  // from the recording, before it is fused
   bool single_pass = false;     // loops are not sought
   RecordingOptions recording;

@@ -29,7 +29,8 @@ void RunLog::begin(const RgbdFrame& frame) {
     warn(frame.stamp_problem + ", and so with others like it");
 }
 
-void RunLog::note(const RgbdFrame& frame, const FrameResult& result) {
+void RunLog::note(const RgbdFrame& frame, const FrameResult& result, size_t map_bytes) {
+  if (options_.report) record_.note(frame, result.tracking, map_bytes);
   if (result.tracking.status == TrackingStatus::kLost) return noteLoss(result.tracking.reason);
   noteTracked(result.tracking);
   if (result.color.fused) ++counts_.colored;

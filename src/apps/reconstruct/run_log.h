@@ -9,6 +9,7 @@
 #include "apps/reconstruct/report.h"
 #include "apps/reconstruct/run.h"
 #include "depth_fusion/recording/trajectory_file.h"
+#include "tools/report/run_record.h"
 
 namespace depth_fusion {
 
@@ -21,6 +22,8 @@ class RunLog {
   const RunCounts& counts() const { return counts_; }
   // The poses of the tracked frames.
   const Trajectory& trajectory() const { return trajectory_; }
+  // What the page tells of the frames; empty without --report.
+  const RunRecord& record() const { return record_; }
   // Whether anything was complained of.
   bool failed() const { return failed_; }
 
@@ -28,7 +31,8 @@ class RunLog {
   void begin(const RgbdFrame& frame);
   // The sensor is searched for in a map that was loaded.
   void searchInMap() { is_searched_for_ = true; }
-  void note(const RgbdFrame& frame, const FrameResult& result);
+  // After it the map takes so much memory.
+  void note(const RgbdFrame& frame, const FrameResult& result, size_t map_bytes);
   // Says once if the noise is not what the sensor model says.
   void noteNoise(const DepthSensorParameters& sensor, const DepthFrame& depth);
   // Says each reason once.
@@ -62,6 +66,7 @@ class RunLog {
   const RunOptions& options_;
   const std::string input_;
   RunCounts counts_;
+  RunRecord record_;
   Trajectory trajectory_;
   std::string status_;      // of the last frame
   std::string part_doubt_;  // of the map, since a part began

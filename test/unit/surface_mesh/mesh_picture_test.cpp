@@ -70,6 +70,18 @@ TEST(MeshPicture, drawsTheColorsUnlessItIsToShade) {
   EXPECT_GT(shaded.at<cv::Vec3b>(24, 45)[0], 150);
 }
 
+TEST(MeshPicture, openLeavesOutWhatIsSeenFromBehind) {
+  const CameraIntrinsics camera = {64, 48, 50.0, 50.0, 31.5, 23.5};
+  TriangleMesh mesh;
+  addSquare(mesh, {0.0f, 0.0f, 1.0f}, 0.5f, false);
+  EXPECT_TRUE(
+      isBackground(renderMesh(mesh, camera, Pose::Identity(), MeshPaint::kOpen).at<cv::Vec3b>(24, 32)));
+  addSquare(mesh, {0.0f, 0.0f, 2.0f}, 0.6f, true);
+  mesh.colors.assign(mesh.vertices.size(), {240, 100, 20});
+  const cv::Mat picture = renderMesh(mesh, camera, Pose::Identity(), MeshPaint::kOpen);
+  EXPECT_EQ(picture.at<cv::Vec3b>(24, 32), cv::Vec3b(20, 100, 240));
+}
+
 TEST(MeshPicture, everyViewSeesTheWholeMeshFilled) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {

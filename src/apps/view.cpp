@@ -1,0 +1,65 @@
+// Shows a model in a window.
+#include "apps/command_line.h"
+#include "apps/view/window.h"
+#include "depth_fusion/common/error.h"
+#include "depth_fusion/surface_mesh/mesh_picture.h"
+
+namespace depth_fusion {
+namespace {
+
+constexpr char kDescription[] =
+    "Shows a model: the folder of a `reconstruct`, with the sensor's way; a mesh (.ply, .obj, .stl); a map "
+    "that\n"
+    "was saved, in a file or on a server; points (.pcd, .ply).\n\n"
+    "In the window: drag to turn, with shift and the middle button to move, turn the wheel to come nearer.\n"
+    "  n  the next paint: colours, shaded, certainty, as far as the model has them\n"
+    "  v  fly along the sensor's way, and stop\n"
+    "  t  the sensor's way, on and off\n"
+    "  b  what is seen from behind, on and off\n"
+    "  shift and a click on two points: their distance;  m  none any more\n"
+    "  r  all of it;  q  the end\n\n"
+    "Examples:\n"
+    "  view out\n"
+    "  view kitchen.map --paint certainty\n"
+    "  view out/mesh.ply --screenshot mesh.png --view top\n";
+
+struct Arguments {
+  std::string device;
+  WindowOptions window;
+};
+
+void addOptions(CLI::App& app, Arguments& arguments) {
+  WindowOptions& window = arguments.window;
+  app.option_defaults()->always_capture_default();
+  app.add_option("model", window.model, "what is shown")->required();
+  app.add_option("--paint", window.paint, "how; a model without colours is shaded")
+      ->check(CLI::IsMember(paintNames()));
+  app.add_option("--view", window.view, "from where the model is seen at first")
+      ->check(CLI::IsMember(viewNames()));
+  app.add_option("--screenshot", window.screenshot, "write this picture instead of opening a window");
+  app.add_option("--width", window.width, "of the window, pixels")->check(CLI::Range(64, 8192));
+  app.add_option("--height", window.height, "of the window, pixels")->check(CLI::Range(64, 8192));
+  app.add_flag("--behind", window.behind, "show what is seen from behind, too");
+  app.add_flag("--no-way", window.without_way, "do not show the sensor's way");
+  app.add_flag("--follow", window.follow,
+               "read the model again whenever it has changed, as while a scan grows");
+  app.add_option("--device", arguments.device,
+                 "OpenCL device that reads maps: index, part of its name, cpu or gpu");
+}
+
+}  // namespace
+}  // namespace depth_fusion
+
+int main(int argc, char** argv) {
+  using namespace depth_fusion;
+  CLI::App app(kDescription, "view");
+  Arguments arguments;
+  addOptions(app, arguments);
+  return runApp(app, [&] {
+    app.parse(argc, argv);
+    const WindowOptions& window = arguments.window;
+    const bool with_certainty = window.paint == "certainty";
+    showWindow(window, [&] { return readModel(window.model, with_certainty, arguments.device); });
+    return 0;
+  });
+}

@@ -1,0 +1,125 @@
+#include "apps/view/window.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "apps/view/pcl/display.h"
+#include "apps/view/pcl/scene.h"
+#include "common/io/image_file.h"
+#include "depth_fusion/common/error.h"
+
+namespace depth_fusion {
+namespace {
+
+using pcl::visualization::KeyboardEvent;
+using pcl::visualization::MouseEvent;
+
+constexpr double kFlight_s = 20.0;  // along the whole way
+constexpr int kSpin_ms = 20;
+
+class Window {
+ public:
+  Window(const WindowOptions& options, const std::function<ViewedModel()>& read)
+      : options_(options), read_(read), scene_(options), shown_{"", options.behind, !options.without_way} {
+    load();
+    const std::vector<std::string> paints = paintsOf(model_);
+    const auto paint = std::find(paints.begin(), paints.end(), options.paint);
+    shown_.paint = paint == paints.end() ? paints.front() : *paint;
+    show();
+    scene_.lookFrom(options.view, model_.mesh);
+  }
+
+  void writeScreenshot() { writePicture(options_.screenshot, scene_.picture()); }
+
+  void run() {
+    scene_.viewer().registerKeyboardCallback([this](const KeyboardEvent& event) { onKey(event); });
+    scene_.viewer().registerMouseCallback([this](const MouseEvent& event) { onMouse(event); });
+    while (!scene_.viewer().wasStopped()) {
+      scene_.viewer().spinOnce(kSpin_ms);
+      if (flight_s_ >= 0.0) fly();
+      if (options_.follow) follow();
+    }
+  }
+
+ private:
+  void load() {
+    changed_ = lastChange();
+    model_ = read_();
+    check(!model_.mesh.vertices.empty(), options_.model + " has no surface");
+  }
+
+  void show() { scene_.show(model_, shown_, ruler_); }
+
+  void fly() {
+    const double share = std::min(flight_s_ / kFlight_s, 1.0);
+    const auto pose = static_cast<size_t>(share * static_cast<double>(model_.way.size() - 1));
+    scene_.look(model_.way[pose].T_W_D, 1.0);
+    flight_s_ = share < 1.0 ? flight_s_ + 1e-3 * kSpin_ms : -1.0;
+  }
+
+  std::filesystem::file_time_type lastChange() const {
+    std::error_code none;
+    const bool is_folder = std::filesystem::is_directory(options_.model, none);
+    return std::filesystem::last_write_time(options_.model + (is_folder ? "/mesh.ply" : ""), none);
+  }
+
+  // What cannot be read now is read at its next change.
+  void follow() {
+    if (lastChange() == changed_) return;
+    try {
+      load();
+      show();
+    } catch (const Error&) {
+    }
+  }
+
+  void onKey(const KeyboardEvent& event) {
+    if (!event.keyDown()) return;
+    const std::string key = event.getKeySym();
+    if (key == "v") flight_s_ = flight_s_ < 0.0 && model_.way.size() > 1 ? 0.0 : -1.0;
+    if (key == "m") ruler_.clear();
+    if (key == "t") shown_.way = !shown_.way;
+    if (key == "b") shown_.behind = !shown_.behind;
+    if (key == "n") {
+      const std::vector<std::string> paints = paintsOf(model_);
+      const auto next = std::find(paints.begin(), paints.end(), shown_.paint) + 1;
+      shown_.paint = next == paints.end() ? paints.front() : *next;
+    }
+    if (key == "m" || key == "t" || key == "b" || key == "n") show();
+  }
+
+  void onMouse(const MouseEvent& event) {
+    if (event.getType() != MouseEvent::MouseButtonPress || event.getButton() != MouseEvent::LeftButton ||
+        (event.getKeyboardModifiers() & KeyboardEvent::Shift) == 0)
+      return;
+    const auto point_W = scene_.pointAt(static_cast<int>(event.getX()), static_cast<int>(event.getY()));
+    if (!point_W) return;
+    ruler_.pick(*point_W);
+    show();
+    std::printf("%s\n", ruler_.text().c_str());
+    std::fflush(stdout);
+  }
+
+  const WindowOptions& options_;
+  const std::function<ViewedModel()>& read_;
+  Scene scene_;
+  SceneOptions shown_;
+  ViewedModel model_;
+  Ruler ruler_;
+  double flight_s_ = -1.0;  // since it began; negative: none
+  std::filesystem::file_time_type changed_;
+};
+
+}  // namespace
+
+void showWindow(const WindowOptions& options, const std::function<ViewedModel()>& read) {
+  checkDisplay();
+  Window window(options, read);
+  if (options.screenshot.empty())
+    window.run();
+  else
+    window.writeScreenshot();
+}
+
+}  // namespace depth_fusion
