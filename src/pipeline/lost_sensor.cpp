@@ -39,26 +39,6 @@ bool TrackingSession::isLostForLong() const {
   return lost_s > 0.0 && loss_ && loss_->sees_enough && loss_->until_s - loss_->since_s >= lost_s;
 }
 
-void TrackingSession::beginPart() {
-  char reason[200];
-  std::snprintf(reason, sizeof(reason), "another part of the map begins, for the sensor was lost for %.1f s",
-                loss_ ? loss_->until_s - loss_->since_s : 0.0);
-  const double since_s = loss_ ? loss_->until_s : 0.0;
-  forgetMap();
-  begins_anew_for_ = reason;
-  begins_part_ = true;
-  standsApart(since_s);
-}
-
-void TrackingSession::standsApart(double since_s) {
-  char doubt[200];
-  std::snprintf(doubt, sizeof(doubt),
-                "what is mapped since %.3f s stands where the sensor was expected after it was lost, until a "
-                "loop joins it with the rest of the map",
-                since_s);
-  apart_ = doubt;
-}
-
 TrackingResult TrackingSession::relocalise(const MotionPrior& prior, const FrameFeatures& features,
                                            const TrackingResult& lost, StageTimers& timers) {
   const StageTimers::Scope timer(timers, "relocalisation");

@@ -10,14 +10,10 @@
 namespace depth_fusion {
 namespace {
 
-constexpr char kStart[] = "start",
-               kPartStart[] = "part start";  // priors of frames that begin a map, or a part
 constexpr char kWhereExpected[] =
     "; it begins where the sensor is expected, which nothing measures: poses of before are of another world";
 constexpr int kAllDirections = 6;
-constexpr double kOfStart = 1e-10;  // variance of the frame by which the world is defined
 constexpr char kGuessed[] = "; nothing measures that, and the pose stays where it was expected";
-constexpr int kFramesAtGiven = 10;  // in which the sensor is searched for at a pose that was given
 
 // Whether frames are compensated for the sensor's motion.
 bool bendsFrames(const PreprocessingParameters& parameters) {
@@ -29,12 +25,6 @@ bool isFarFrom(const Pose& T_W_view, const MotionPrior& prior) {
   constexpr double kFar_m = 0.4, kFar_rad = 0.4;
   const Pose motion = T_W_view.inverse() * prior.T_W_D;
   return prior.covariance && (motion.translation().norm() > kFar_m || rotationAngle(motion) > kFar_rad);
-}
-
-std::vector<Pose> posesOf(const Keyframes& keyframes) {
-  std::vector<Pose> poses;
-  for (const KeyframePtr& keyframe : keyframes) poses.push_back(keyframe->T_W_D);
-  return poses;
 }
 
 std::string guessedTooLong(const GuessedMotion& motion) {
@@ -180,60 +170,6 @@ void TrackingSession::follow(const RgbdFrame& frame, const Pose& T_W_D, StageTim
 
 void TrackingSession::skip(double stamp_s, const std::vector<FrameMotion>& measured) {
   motion_.predict(stamp_s, measured);
-}
-
-void TrackingSession::reset(const Pose& T_W_D, Keyframes keyframes) {
-  lose();
-  motion_.loseAt(T_W_D);
-  given_.reset();
-  forgetMap();
-  drift_.reset(posesOf(keyframes));
-  relocaliser_.reset(std::move(keyframes));
-  begins_anew_for_.clear();
-}
-
-void TrackingSession::searchAt(const Pose& T_W_D) {
-  lose();
-  motion_.loseAt(T_W_D);
-  guessed_ = {};
-  loss_.reset();
-  given_ = {T_W_D, kFramesAtGiven};
-}
-
-void TrackingSession::beginAnew() {
-  begins_anew_for_ = young_map_.reason();
-  relocaliser_.reset();
-  forgetMap();
-}
-
-void TrackingSession::forgetMap() {
-  drift_.reset();
-  carried_.setZero();
-  tracker_.reset();
-  young_map_.forget();
-  guessed_ = {};
-  watch_.reset();
-  older_.forget();
-  is_level_.reset();
-  floor_z_m_.reset();
-  loss_.reset();
-  apart_.clear();
-  begins_part_ = false;
-}
-
-TrackingResult TrackingSession::begin(const RgbdFrame& frame, const Pose& T_W_D) const {
-  TrackingResult first;
-  first.prior = begins_part_ ? kPartStart : kStart;
-  const int points = pointsInRange(frame);
-  if (points < parameters_.icp_tracking.min_inliers) {
-    first.reason = "only " + std::to_string(points) + " points with depth in range to begin with";
-  } else {
-    first.status = TrackingStatus::kTracking;
-    first.reason = begins_anew_for_;
-    first.T_W_D = T_W_D;
-    first.covariance = kOfStart * Matrix6d::Identity();
-  }
-  return first;
 }
 
 int TrackingSession::pointsInRange(const RgbdFrame& frame) const {

@@ -82,6 +82,9 @@ class TrackingSession {
   const Keyframes& keyframes() const { return relocaliser_.keyframes(); }
 
  private:
+  // The origins of the pose of a frame that begins a map, or a part of one.
+  static constexpr char kStart[] = "start", kPartStart[] = "part start";
+
   // A frame that is ready to be tracked.
   struct PreparedFrame {
     double stamp_s;
