@@ -1,5 +1,6 @@
 #include "depth_fusion/pipeline/motion_model.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace depth_fusion {
@@ -47,7 +48,13 @@ std::optional<MotionPrior> MotionModel::bridged() const {
   const Matrix6d to_sensor = adjoint(T_W_expected_.inverse());
   const Matrix6d covariance = to_sensor * *covariance_ * to_sensor.transpose();
   if (covariance.diagonal().tail<3>().maxCoeff() > kUnknown_m * kUnknown_m) return std::nullopt;
-  return MotionPrior{T_W_expected_, covariance_, measured_.front().origin};
+  std::string origins;
+  for (const MotionPrior& prior : measured_) {
+    const auto is_it = [&](const MotionPrior& other) { return other.origin == prior.origin; };
+    if (std::any_of(contradicting_.begin(), contradicting_.end(), is_it)) continue;
+    origins += (origins.empty() ? "" : ", ") + prior.origin;
+  }
+  return MotionPrior{T_W_expected_, covariance_, origins};
 }
 
 const Vector6d& MotionModel::moveTo(double stamp_s, const Pose& T_W_D) {

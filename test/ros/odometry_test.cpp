@@ -110,6 +110,7 @@ TEST_F(OdometryOnTf, IsAPriorAndCarriesThePoseOnWhileTheCameraSeesNothing) {
   for (size_t i = kBlind; i < kSeesAgain; ++i) {
     RgbdFrame nothing = frames_[i];
     nothing.depth = cv::Mat::zeros(nothing.depth.size(), nothing.depth.type());
+    nothing.color = cv::Mat::zeros(nothing.color.size(), nothing.color.type());
     sendOdometry(i);
     robot_camera_.publish(nothing);
     const auto status = tracker_status_.awaitStamp(stamp(i));
