@@ -7,6 +7,8 @@ namespace {
 
 constexpr double kApart = 0.1;  // from one anchor to the next: metres, and radians
 constexpr double kReach = 0.5;  // within which views show the same surface
+// A shorter way is taken if it saves so much; else the one over nearer anchors, which share more of the view.
+constexpr double kFarther = 1.05;
 
 // Metres and radians alike: at two metres, where surfaces are that rooms have, both move the view by as much.
 double separation(const Pose& a, const Pose& b) {
@@ -79,10 +81,10 @@ MapDrift::Anchor MapDrift::anchorAt(const Pose& T_W_D) const {
   const Anchor* best = nullptr;
   double shortest = 0.0;
   for (const Anchor& anchor : anchors_) {
-    const double apart = separation(anchor.T_W_D, T_W_D);
-    if (apart > kReach || (best != nullptr && anchor.way + apart >= shortest)) continue;
+    const double apart = separation(anchor.T_W_D, T_W_D), way = anchor.way + kFarther * apart;
+    if (apart > kReach || (best != nullptr && way >= shortest)) continue;
     best = &anchor;
-    shortest = anchor.way + apart;
+    shortest = way;
   }
   return beyond(best == nullptr ? anchors_[last_] : *best, T_W_D);
 }

@@ -31,8 +31,9 @@ struct TrackingResult {
   Matrix6d covariance = Matrix6d::Identity();
   // ... and how that part of the map lies to where the map begins.
   Matrix6d drift = Matrix6d::Zero();
-  // What the prior's own covariance leaves in `covariance`, and what stays in the pose of an error of the pose
-  // that the prior goes out from: nearly nothing, but along directions that geometry leaves free all of it.
+  // What the prior's own covariance leaves in `covariance`, and what stays in the pose of an error of the
+  // pose that the prior goes out from: nearly nothing, but along directions that geometry leaves free all of
+  // it.
   Matrix6d covariance_of_prior = Matrix6d::Zero();
   Matrix6d share_of_prior = Matrix6d::Zero();
   std::string prior;  // the origin of the prior that tracking began with; empty if the frame was not tracked

@@ -4,6 +4,7 @@
 #include <nav_msgs/Odometry.h>
 
 #include <boost/make_shared.hpp>
+#include <cstdint>
 
 #include "ros/conversions/messages.h"
 
