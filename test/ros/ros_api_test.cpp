@@ -59,7 +59,8 @@ std::vector<Parameters> variantsOf(const std::string& nodelet, const std::string
     }
     variants.push_back(variant);
   }
-  return nodelet == "surface_mesh" ? std::vector<Parameters>{{}} : variants;
+  const bool has_images = nodelet != "surface_mesh" && nodelet != "navigation";
+  return has_images ? variants : std::vector<Parameters>{{}};
 }
 
 XmlRpc::XmlRpcValue askMaster(const std::string& method) {

@@ -59,7 +59,7 @@ TEST(SharedTypes, ListHasEveryStruct) {
   FOR_EACH_SHARED_TYPE(ADD_STRUCT, IGNORE_MEMBER)
 #undef ADD_STRUCT
 #undef IGNORE_MEMBER
-  const std::string source = embeddedKernelSource("shared/types.h");
+  const std::string source = embeddedKernelSource("shared/types.h") + embeddedKernelSource("esdf/types.h");
   int declared = 0;
   const std::string keyword = "typedef struct";
   for (size_t at = source.find(keyword); at != std::string::npos; at = source.find(keyword, at + 1))

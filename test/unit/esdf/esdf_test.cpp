@@ -31,9 +31,9 @@ Errors errorsOf(const EsdfGrid& grid, const Scene& scene) {
 }
 
 TEST(Esdf, DistancesAreThoseOfTheScene) {
-  for (const auto& [cell_m, frames] : {std::pair(0.05f, 48), std::pair(0.03f, 24)}) {
+  for (const float cell_m : {0.05f, 0.03f}) {
     EsdfScene fused(closedRoom(), cell_m);
-    fused.lookAround(frames);
+    fused.lookAround(48);
     const Errors errors = errorsOf(fused.esdf().grid(), fused.scene());
     EXPECT_GT(errors.known, static_cast<size_t>(0.8 * kRoomVolume_m3 / (cell_m * cell_m * cell_m)));
     EXPECT_LT(errors.mean(), 0.5) << cell_m;
