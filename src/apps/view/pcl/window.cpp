@@ -115,6 +115,7 @@ class Window {
 
 void showWindow(const WindowOptions& options, const std::function<ViewedModel()>& read) {
   checkDisplay();
+  vtkObject::GlobalWarningDisplayOff();  // PCL calls what VTK is about to drop, and VTK says so each time
   Window window(options, read);
   if (options.screenshot.empty())
     window.run();
