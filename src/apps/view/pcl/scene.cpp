@@ -36,7 +36,7 @@ void Scene::show(const ViewedModel& model, const SceneOptions& options, const Ru
   vtkProperty& surface = propertyOf("model");
   surface.SetBackfaceCulling(options.behind ? 0 : 1);
   surface.SetLighting(options.paint != "colors");
-  surface.SetAmbient(0.2);
+  surface.SetAmbient(0.25);
   surface.SetDiffuse(0.75);
   surface.SetPointSize(3.0f);
   if (options.way && model.way.size() > 1) {
