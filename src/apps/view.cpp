@@ -41,8 +41,6 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--height", window.height, "of the window, pixels")->check(CLI::Range(64, 8192));
   app.add_flag("--behind", window.behind, "show what is seen from behind, too");
   app.add_flag("--no-way", window.without_way, "do not show the sensor's way");
-  app.add_flag("--follow", window.follow,
-               "read the model again whenever it has changed, as while a scan grows");
   app.add_option("--device", arguments.device,
                  "OpenCL device that reads maps: index, part of its name, cpu or gpu");
 }

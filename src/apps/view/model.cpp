@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/view/obj_file.h"
 #include "apps/view/stored_model.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/recording/trajectory_file.h"
@@ -54,7 +55,9 @@ ViewedModel readModel(const std::string& path, bool with_certainty, const std::s
   ViewedModel model;
   if (ending == ".ply") {
     model.mesh = readPlyOrPoints(path);
-  } else if (ending == ".obj" || ending == ".stl" || ending == ".pcd") {
+  } else if (ending == ".obj") {
+    model.mesh = readObj(path);
+  } else if (ending == ".stl" || ending == ".pcd") {
     model.mesh = readByPcl(path);
   } else {
     return readStoredModel(path, with_certainty, device);

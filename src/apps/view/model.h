@@ -19,7 +19,7 @@ struct ViewedModel {
 // asked for, since that takes several times as long. Throws Error for what cannot be read.
 ViewedModel readModel(const std::string& path, bool with_certainty, const std::string& device);
 
-// Files that PCL reads: .obj, .stl, .pcd, and .ply that are not of triangles alone. Throws Error.
+// Files that PCL reads: .stl, .pcd, and .ply that are not of triangles alone. Throws Error.
 TriangleMesh readByPcl(const std::string& path);
 
 // Lists "colors", "shaded" and "certainty".

@@ -16,7 +16,6 @@ struct WindowOptions {
   int width = 1280, height = 960;
   bool behind = false;  // show what is seen from behind
   bool without_way = false;
-  bool follow = false;  // read the model again when it changes
 };
 
 // Shows what `read` gives until the user closes the window, or writes the picture. Throws Error if there is

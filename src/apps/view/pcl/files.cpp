@@ -6,6 +6,7 @@
 #include <pcl/point_types.h>
 
 #include "apps/view/model.h"
+#include "apps/view/obj_file.h"
 #include "depth_fusion/common/error.h"
 
 namespace depth_fusion {
@@ -22,17 +23,6 @@ pcl::PolygonMesh readFile(const std::string& path) {
                             : static_cast<int>(pcl::io::loadPolygonFile(path, mesh) > 0);
   check(points > 0 && has(mesh.cloud, "x"), path + " cannot be read; is it there, and whole?");
   return mesh;
-}
-
-// Normals of points that come without.
-void addNormals(TriangleMesh& mesh) {
-  for (const MeshTriangle& t : mesh.triangles) {
-    const Eigen::Vector3f a = mesh.vertices[t[0]].position_W;
-    const Eigen::Vector3f normal =
-        (mesh.vertices[t[1]].position_W - a).cross(mesh.vertices[t[2]].position_W - a);
-    for (const uint32_t vertex : t) mesh.vertices[vertex].normal_W += normal;
-  }
-  for (MeshVertex& vertex : mesh.vertices) vertex.normal_W.normalize();
 }
 
 }  // namespace
@@ -58,7 +48,7 @@ TriangleMesh readByPcl(const std::string& path) {
       mesh.triangles.push_back(
           {numbers[polygon.vertices[0]], numbers[polygon.vertices[i - 1]], numbers[polygon.vertices[i]]});
   }
-  if (!has_normals) addNormals(mesh);
+  if (!has_normals) setNormals(mesh);
   return mesh;
 }
 

@@ -36,7 +36,8 @@ void Scene::show(const ViewedModel& model, const SceneOptions& options, const Ru
   vtkProperty& surface = propertyOf("model");
   surface.SetBackfaceCulling(options.behind ? 0 : 1);
   surface.SetLighting(options.paint != "colors");
-  surface.SetAmbient(0.2);
+  surface.SetAmbient(0.25);
+  surface.SetDiffuse(0.75);
   surface.SetPointSize(3.0f);
   if (options.way && model.way.size() > 1) {
     viewer_.addModelFromPolyData(wayData(model.way), "way");
@@ -96,10 +97,20 @@ void Scene::look(const Pose& T_W_C, double distance_m) {
 }
 
 std::optional<Eigen::Vector3d> Scene::pointAt(int x, int y) {
-  if (renderer().GetZ(x, y) >= 1.0) return std::nullopt;
+  showOthers(false);
+  viewer_.getRenderWindow()->Render();
+  const bool is_surface = renderer().GetZ(x, y) < 1.0;
   const auto picker = vtkSmartPointer<vtkWorldPointPicker>::New();
   picker->Pick(x, y, 0.0, &renderer());
+  showOthers(true);
+  if (!is_surface) return std::nullopt;
   return Eigen::Vector3d(picker->GetPickPosition());
+}
+
+void Scene::showOthers(bool visible) {
+  for (auto& [name, actor] : *viewer_.getShapeActorMap()) {
+    if (name != "model") vtkProp::SafeDownCast(actor)->SetVisibility(visible ? 1 : 0);
+  }
 }
 
 vtkProperty& Scene::propertyOf(const std::string& shape) {

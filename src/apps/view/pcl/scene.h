@@ -42,6 +42,8 @@ class Scene {
   vtkProperty& propertyOf(const std::string& shape);
   vtkRenderer& renderer() { return *viewer_.getRendererCollection()->GetFirstRenderer(); }
   void show(const Ruler& ruler);
+  // All that is not the model.
+  void showOthers(bool visible);
 
   const WindowOptions& options_;
   pcl::visualization::PCLVisualizer viewer_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include "apps/view/pcl/display.h"
 #include "apps/view/pcl/scene.h"
@@ -21,8 +20,8 @@ constexpr int kSpin_ms = 20;
 class Window {
  public:
   Window(const WindowOptions& options, const std::function<ViewedModel()>& read)
-      : options_(options), read_(read), scene_(options), shown_{"", options.behind, !options.without_way} {
-    load();
+      : options_(options), model_(read()), scene_(options), shown_{"", options.behind, !options.without_way} {
+    check(!model_.mesh.vertices.empty(), options_.model + " has no surface");
     const std::vector<std::string> paints = paintsOf(model_);
     const auto paint = std::find(paints.begin(), paints.end(), options.paint);
     shown_.paint = paint == paints.end() ? paints.front() : *paint;
@@ -38,17 +37,10 @@ class Window {
     while (!scene_.viewer().wasStopped()) {
       scene_.viewer().spinOnce(kSpin_ms);
       if (flight_s_ >= 0.0) fly();
-      if (options_.follow) follow();
     }
   }
 
  private:
-  void load() {
-    changed_ = lastChange();
-    model_ = read_();
-    check(!model_.mesh.vertices.empty(), options_.model + " has no surface");
-  }
-
   void show() { scene_.show(model_, shown_, ruler_); }
 
   void fly() {
@@ -56,22 +48,6 @@ class Window {
     const auto pose = static_cast<size_t>(share * static_cast<double>(model_.way.size() - 1));
     scene_.look(model_.way[pose].T_W_D, 1.0);
     flight_s_ = share < 1.0 ? flight_s_ + 1e-3 * kSpin_ms : -1.0;
-  }
-
-  std::filesystem::file_time_type lastChange() const {
-    std::error_code none;
-    const bool is_folder = std::filesystem::is_directory(options_.model, none);
-    return std::filesystem::last_write_time(options_.model + (is_folder ? "/mesh.ply" : ""), none);
-  }
-
-  // What cannot be read now is read at its next change.
-  void follow() {
-    if (lastChange() == changed_) return;
-    try {
-      load();
-      show();
-    } catch (const Error&) {
-    }
   }
 
   void onKey(const KeyboardEvent& event) {
@@ -102,19 +78,18 @@ class Window {
   }
 
   const WindowOptions& options_;
-  const std::function<ViewedModel()>& read_;
+  const ViewedModel model_;
   Scene scene_;
   SceneOptions shown_;
-  ViewedModel model_;
   Ruler ruler_;
   double flight_s_ = -1.0;  // since it began; negative: none
-  std::filesystem::file_time_type changed_;
 };
 
 }  // namespace
 
 void showWindow(const WindowOptions& options, const std::function<ViewedModel()>& read) {
   checkDisplay();
+  vtkObject::GlobalWarningDisplayOff();  // PCL calls what VTK is about to drop, and VTK says so each time
   Window window(options, read);
   if (options.screenshot.empty())
     window.run();
