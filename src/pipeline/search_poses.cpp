@@ -1,6 +1,7 @@
 #include "pipeline/search_poses.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace depth_fusion {

@@ -12,7 +12,7 @@ constexpr double kMissing_s = 0.1;
 constexpr double kBias_rad_s = 0.02;        // of a sensor that is not known yet
 constexpr double kBiasWalk_rad2_s3 = 1e-9;  // by which it changes, a variance a second
 constexpr double kTracked_rad = 0.003;      // standard deviation of a rotation that tracking finds
-constexpr double kUnknown_m = 2.0;    // of the translation
+constexpr double kUnknown_m = 2.0;          // of the translation
 constexpr double kSurprise = 5.0;           // a rotation farther off, in standard deviations, tells no bias
 
 Eigen::Matrix3d turned(const Eigen::Vector3d& rotation) {

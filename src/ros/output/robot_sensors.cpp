@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include <cstdint>
+
 #include "ros/conversions/imu_conversion.h"
 #include "ros/conversions/messages.h"
 

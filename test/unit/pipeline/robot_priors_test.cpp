@@ -179,15 +179,5 @@ TEST(RobotPriors, ABlindSensorGoesOnByOdometryAndIsBackAtOnce) {
   }
 }
 
-TEST(RobotPriors, AfterAGapInTheFramesTheFirstOneIsTracked) {
-  SimulationOptions options = simulation("white_room", 96, 10.0);
-  options.robot.has_wheels = true;
-  const auto gap = [](int i, RgbdFrame&) { return i < 60 || i >= 90; };
-  const Ride run = track(options, coarseRoomParameters(), gap);
-  ASSERT_EQ(run.results.size(), 66u);
-  EXPECT_EQ(run.lost, 0) << run.results[60].reason;
-  EXPECT_LT(run.errorAt(65).translation().norm(), 0.03);
-}
-
 }  // namespace
 }  // namespace depth_fusion
