@@ -1,6 +1,7 @@
 #include "depth_fusion/loops/corrections.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace depth_fusion {
@@ -41,8 +42,10 @@ uint32_t Corrections::partAt(double stamp_s) const {
 }
 
 bool Corrections::isApart() const {
-  return std::any_of(keyframes_.begin(), keyframes_.end(), [this](const CorrectedKeyframe& keyframe) {
-    return keyframe.part != keyframes_.back().part;
+  std::map<uint32_t, size_t> parts;
+  for (const CorrectedKeyframe& keyframe : keyframes_) ++parts[keyframe.part];
+  return std::any_of(parts.begin(), parts.end(), [this](const auto& part) {
+    return part.first != keyframes_.back().part && part.second > 1;
   });
 }
 

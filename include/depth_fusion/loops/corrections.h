@@ -30,7 +30,8 @@ class Corrections {
   Pose corrected(const StampedPose& tracked) const;
   // The part that a frame of that time is of.
   uint32_t partAt(double stamp_s) const;
-  // Whether nothing says how the last keyframe lies to some others.
+  // Whether nothing says how the last keyframe lies to other parts. One of a single keyframe, after which the
+  // sensor was lost again, does not count.
   bool isApart() const;
   // How far the keyframe is moved that is moved most.
   double largestMove_m() const;

@@ -208,8 +208,10 @@ void LiveTracker::changeMap(const std::shared_ptr<const MapView>& map) {
   if (is_moved) {
     const Corrections& corrections = *map->move->corrections;
     robot_.correct_poses(corrections);
-    if (session_ != nullptr && corrections.isApart())
-      session_->standsApart(corrections.keyframes().back().stamp_s);
+    if (session_ != nullptr && corrections.isApart()) {
+      const std::vector<CorrectedKeyframe>& keyframes = corrections.keyframes();
+      session_->standsApart(keyframes[keyframes.back().part].stamp_s);
+    }
   } else {
     robot_.forget_poses();
   }

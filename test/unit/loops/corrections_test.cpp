@@ -34,9 +34,19 @@ TEST(Corrections, StretchesAreNotBlended) {
   EXPECT_EQ(corrections.partAt(-1.0), 0u);
   EXPECT_EQ(corrections.partAt(3.9), 0u);
   EXPECT_EQ(corrections.partAt(4.0), 1u);
-  EXPECT_TRUE(corrections.isApart());
-  EXPECT_FALSE(Corrections({{0.0, at(0.0), at(0.1), 0, 0}, {4.0, at(0.0), at(9.0), 1, 0}}).isApart());
-  EXPECT_FALSE(Corrections().isApart());
+}
+
+TEST(Corrections, PartsAreApartUntilALoopJoinsThem) {
+  const auto areApart = [](std::vector<uint32_t> parts) {
+    std::vector<CorrectedKeyframe> keyframes;
+    for (const uint32_t part : parts) keyframes.push_back({0.0, at(0.0), at(0.0), part, part});
+    return Corrections(keyframes).isApart();
+  };
+  EXPECT_TRUE(areApart({0, 0, 2, 2}));
+  EXPECT_TRUE(areApart({0, 0, 2}));
+  EXPECT_FALSE(areApart({0, 0, 0}));
+  EXPECT_FALSE(areApart({0, 1, 0})) << "what was left after one keyframe does not count";
+  EXPECT_FALSE(areApart({}));
 }
 
 TEST(Corrections, AFrameTurnsAboutItsKeyframeNotAboutTheOrigin) {
