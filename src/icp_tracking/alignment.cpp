@@ -85,8 +85,7 @@ IcpSolution solve(const DegeneracyAnalysis& analysis, const Pose& T_M_D, const I
   solution.covariance_of_prior = inverse * other * inverse;
   solution.covariance = inverse * (excess * system.hessian) * inverse + solution.covariance_of_prior;
   const bool is_measured = prior.information || prior.measured_pose;
-  solution.twist =
-      is_measured ? Vector6d(information.ldlt().solve(-gradient)) : analysis.solve(deviation);
+  solution.twist = is_measured ? Vector6d(information.ldlt().solve(-gradient)) : analysis.solve(deviation);
   return solution;
 }
 

@@ -128,8 +128,8 @@ TEST_F(RefinedMap, IsRefusedWhereThereAreNoKeyframes) {
   EXPECT_NE(refused.message.find("close_loops"), std::string::npos) << refused.message;
 }
 
-// The sensor is carried elsewhere, unseen, and goes back to where it began: what it mapped there is joined with
-// the rest, and the robot is told where it is.
+// The sensor is carried elsewhere, unseen, and goes back to where it began: what it mapped there is joined
+// with the rest, and the robot is told where it is.
 TEST_F(RefinedMap, JoinsAPartThatALostSensorMapped) {
   graph_.handle().setParam("relocalisation/lost_s", 0.5);
   loadSeeking();
