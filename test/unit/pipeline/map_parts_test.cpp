@@ -100,7 +100,7 @@ TEST(MapParts, ASensorThatNoLoopCouldJoinStaysLost) {
       RgbdFrame frame = frames()[i];
       if (!with_texture) frame.color.release();
       const bool is_lost = pipeline.processFrame(frame).tracking.status == TrackingStatus::kLost;
-      if (i >= kFirstPart) EXPECT_TRUE(is_lost) << i;
+      EXPECT_TRUE(is_lost || i < kFirstPart) << i;
     }
     EXPECT_EQ(pipeline.submaps().submaps().size(), 1u);
   }
