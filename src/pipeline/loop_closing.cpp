@@ -120,7 +120,8 @@ uint32_t LoopClosing::adopt(const Corrections& applied) {
 
 void LoopClosing::finish() {
   std::unique_lock<std::mutex> lock(mutex_);
-  is_idle_.wait(lock, [this] { return waiting_.empty(); });
+  const size_t there = known_.size() + waiting_.size();
+  is_idle_.wait(lock, [&] { return waiting_.empty() || known_.size() >= there; });
 }
 
 std::vector<LoopCandidate> LoopClosing::takeCandidates() {

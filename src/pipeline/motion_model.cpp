@@ -14,6 +14,9 @@ Vector6d velocityOver(const Pose& T_before_now, double seconds) {
   return twistFromPose(T_before_now) / seconds;
 }
 
+// The camera alone does not go on where the map contradicts it: what misleads its depth misleads its texture.
+constexpr char kTexture[] = "texture";
+
 // A position with a larger standard deviation is not known.
 constexpr double kUnknown_m = 1.0;
 
@@ -54,6 +57,7 @@ std::optional<MotionPrior> MotionModel::bridged() const {
     if (std::any_of(contradicting_.begin(), contradicting_.end(), is_it)) continue;
     origins += (origins.empty() ? "" : ", ") + prior.origin;
   }
+  if (origins.empty() || origins == kTexture) return std::nullopt;
   return MotionPrior{T_W_expected_, covariance_, origins};
 }
 

@@ -45,7 +45,7 @@ class LoopClosing {
   // count as moved accordingly. Returns what add() is then told as `world`.
   uint32_t adopt(const Corrections& applied);
 
-  // Waits until all keyframes are compared.
+  // Waits until all keyframes that there are now are compared.
   void finish();
   // Places that were compared since the last call, and older ones whose verdict changed.
   std::vector<LoopCandidate> takeCandidates();

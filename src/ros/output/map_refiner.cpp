@@ -136,6 +136,7 @@ bool MapRefiner::serve(RefineMap::Request& request, RefineMap::Response& respons
           "part of the map was loaded");
     check(!request.path.empty() || request.voxel_size_m == 0.0f,
           "the live map keeps its voxels; give a path for a map with others");
+    loops_->finish();
     const Corrections corrections =
         request.path.empty() ? replace() : saveTo(keeper_.placeOf(request.path), request.voxel_size_m);
     response.success = true;
@@ -183,6 +184,7 @@ Corrections MapRefiner::fuse(MapRefinement& refinement) {
     }
   }
   clearUntil(std::numeric_limits<double>::infinity());
+  check(!refinement.submaps().isEmpty(), "no keyframe shows anything yet; the map stays as it is");
   return Corrections(std::move(fused));
 }
 
@@ -200,7 +202,6 @@ Corrections MapRefiner::replace() {
   const std::shared_ptr<Database> scratch = openScratch(mapper_.parameters().submaps.store);
   auto refinement = std::make_unique<MapRefinement>(*queue_, parametersNow());
   const Corrections corrections = fuse(*refinement);
-  check(!refinement->submaps().isEmpty(), "no keyframe shows anything yet; the map stays as it is");
   fuseLastView(*refinement, corrections);
   MapSaver saver(scratch);
   refinement->save(saver, mapper_.camera(), {}, {});

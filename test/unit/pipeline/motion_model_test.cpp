@@ -65,6 +65,15 @@ TEST(MotionModel, ALostSensorsPoseGoesOnWithAGrowingCovariance) {
   EXPECT_FALSE(model.bridged()) << "a motion is missing";
 }
 
+// What misleads depth misleads texture, too.
+TEST(MotionModel, ALostSensorsPoseDoesNotGoOnByTextureAlone) {
+  MotionModel model;
+  model.moveTo(0.0, at(1.0));
+  model.lose();
+  model.predict(kPeriod_s, {sureMotion("texture", 0.1, 0.01)});
+  EXPECT_FALSE(model.bridged());
+}
+
 TEST(MotionModel, WithoutAMotionItIsTheLastPose) {
   MotionModel model;
   expectPrior(model.predict(0.0, {}), "last pose", 0.0);
