@@ -42,7 +42,10 @@ MotionPrior MotionModel::predict(double stamp_s, const std::vector<FrameMotion>&
   MotionPrior prior = motion.priorFrom(T_W_expected_);
   velocity_ = velocityOver(motion.T_previous_current, since_last_s);
   T_W_expected_ = prior.T_W_D;
-  if (covariance_) prior.covariance = *covariance_ += *prior.covariance;
+  if (covariance_) *covariance_ += *prior.covariance;
+  const bool by_robot = std::any_of(measured.begin(), measured.end(),
+                                    [](const FrameMotion& one) { return one.origin != kTexture; });
+  if (covariance_ && by_robot) prior.covariance = covariance_;
   return prior;
 }
 
