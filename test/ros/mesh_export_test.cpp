@@ -119,7 +119,7 @@ TEST_F(MeshExport, refusesWhatItCannotDo) {
   expectRefusal(call(""), {"path is empty"});
   expectRefusal(call("no/such/mesh.ply"), {ros_home_ / "no/such", "does not exist"});
   expectRefusal(call(ros_home_.path()), {ros_home_.path(), "is a folder"});
-  expectRefusal(call("mesh.glb"), {"glb", "ply, obj, stl"});
+  expectRefusal(call("mesh.fbx"), {"fbx", "ply, obj, stl"});
   expectRefusal(call("mesh.ply", 0.0, false, "las"), {"las", "ply, obj, stl"});
   expectRefusal(call("mesh.ply", 1.5), {"simplification", "1.5"});
   expectRefusal(call("mesh.ply", -0.1), {"simplification", "-0.1"});
