@@ -40,7 +40,7 @@ class ReconstructionTest(unittest.TestCase):
     def test_what_an_earlier_launch_left_of_any_stage_is_cleared(self):
         os.environ['ROS_PACKAGE_PATH'] = ROOT + ':' + os.environ.get('ROS_PACKAGE_PATH', '/usr/share')
         config = roslaunch.config.load_config_default(
-            [(os.path.join(ROOT, 'launch', 'reconstruction.launch'), [])], None, verbose=False)
+            [(os.path.join(ROOT, 'launch', 'reconstruction.launch'), ['navigation:=true'])], None, verbose=False)
         with open(os.path.join(ROOT, 'docs', 'ros_api.md')) as api:
             stages = set(re.findall(r'<!-- parameters of (\w+) -->', api.read()))
         stages -= {'acquisition'}  # another launch file's, and the nodelet's own
