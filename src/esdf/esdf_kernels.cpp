@@ -28,7 +28,7 @@ EsdfArgs esdfArgs(const EsdfParameters& parameters, const MapParameters& map) {
   args.voxel_m = map.voxel_size_m;
   args.cell_m = map.voxel_size_m * static_cast<float>(args.cell_voxels);
   args.truncation_m = map.truncation_m;
-  // Of a surface, however it lies, some voxel is within half a voxel; one step is for its rounding.
+  // A surface, however it lies, has some voxel within half a voxel of it; one step is for its rounding.
   args.surface_steps =
       std::min(static_cast<int>(0.5f * TSDF_MAX * map.voxel_size_m / map.truncation_m) + 1, TSDF_MAX);
   args.reach = static_cast<int>(std::ceil(parameters.max_distance_m / args.cell_m)) + 1;

@@ -24,15 +24,15 @@ struct FloorGrid {
     return static_cast<size_t>(column) + static_cast<size_t>(columns) * static_cast<size_t>(row);
   }
   Eigen::Vector2d origin_m() const { return cell_size_m * first.cast<double>(); }
-  // That of the cell at a point of W; unknown outside.
+  // Returns the state of the cell at a point of W; it is unknown outside.
   int8_t at(const Eigen::Vector2d& p_W) const;
   bool isAlike(const FloorGrid& other) const {
     return first == other.first && columns == other.columns && rows == other.rows;
   }
 };
 
-// Of W, whose z points up: a cell is occupied if a surface is between the two heights above the ground there,
-// free if some of it is known to be and nothing is occupied, else unknown.
+// Makes the grid of W, whose z points up: a cell is occupied if a surface is between the two heights above
+// the ground there, free if some of it is known to be and nothing is occupied, else unknown.
 FloorGrid floorGridOf(const EsdfGrid& space, const FloorGridParameters& parameters);
 
 // Writes PATH.pgm and PATH.yaml as map_saver does. Throws Error if it cannot, or if the grid has no cells.

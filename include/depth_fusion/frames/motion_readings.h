@@ -21,7 +21,7 @@ struct OdometryReading {
   Pose T_O_D = Pose::Identity();
 };
 
-// Those since the readings before, in the order of their stamps.
+// What was read since the frame before, in the order of the stamps.
 struct MotionReadings {
   std::vector<ImuReading> imu;
   std::vector<OdometryReading> odometry;

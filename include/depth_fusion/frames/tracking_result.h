@@ -27,7 +27,8 @@ struct TrackingResult {
   std::string
       reason;  // why tracking is lost, which directions are free, or why a map begins anew; else empty
   Pose T_W_D = Pose::Identity();  // valid unless lost
-  // Of the twist applied to T_W_D on the left: how the frame lies to the map that it sees ...
+  // Both are covariances of the twist applied to T_W_D on the left: this one of how the frame lies to the map
+  // that it sees ...
   Matrix6d covariance = Matrix6d::Identity();
   // ... and how that part of the map lies to where the map begins.
   Matrix6d drift = Matrix6d::Zero();
@@ -42,7 +43,7 @@ struct TrackingResult {
   double prior_sigmas = 0.0;
   std::string dropped_prior;  // the origin of a measured prior that depth contradicts; prior_sigmas is its
   std::vector<PriorDistance> priors;  // every motion that was measured, also those that were not used
-  // Of a lost frame: where the sensor is by what else measures its motion, without a gap since it was
+  // A lost frame has here where the sensor is by the robot's own motion, measured without a gap since it was
   // tracked.
   std::optional<MotionPrior> bridged;
   // The number of free directions that nothing measured: along them the pose is where it was expected.

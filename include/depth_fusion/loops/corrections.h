@@ -40,8 +40,8 @@ class Corrections {
   const std::vector<CorrectedKeyframe>& keyframes() const { return keyframes_; }
 
  private:
-  // Of keyframes_, which is not empty, the last one until then, or the first of all; and the one after it by
-  // time, if there is one.
+  // Returns the last keyframe until then, or the first of all, and the one after it by time, if there is one.
+  // There are keyframes.
   std::pair<const CorrectedKeyframe*, const CorrectedKeyframe*> about(double stamp_s) const;
 
   std::vector<CorrectedKeyframe> keyframes_;

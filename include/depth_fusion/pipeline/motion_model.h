@@ -14,7 +14,7 @@ class MotionModel {
  public:
   // Goes on to the frame at stamp_s and returns its prior: by the first of the motions measured since the
   // frame before, with those that agree with it, or the last pose if nothing was measured. While the sensor
-  // is lost, its covariance grows from frame to frame.
+  // is lost, and something else than texture measures its motion, its covariance grows from frame to frame.
   MotionPrior predict(double stamp_s, const std::vector<FrameMotion>& measured);
   // The frame at stamp_s is known to be at T_W_D. Returns the velocity from the frame before to there.
   const Vector6d& moveTo(double stamp_s, const Pose& T_W_D);
@@ -24,7 +24,8 @@ class MotionModel {
   std::vector<MotionPrior> otherStarts() const;
   // Where each of the motions puts the frame predicted last.
   const std::vector<MotionPrior>& measured() const { return measured_; }
-  // Where a lost sensor is, if all of its motion since its last known pose was measured.
+  // Where a lost sensor is, if all of its motion since its last known pose was measured, and the last of it
+  // not by texture alone.
   std::optional<MotionPrior> bridged() const;
   // The pose of the frame is not known; the sensor is expected where the frame's prior was.
   void lose() { tracked_.reset(); }
@@ -42,7 +43,7 @@ class MotionModel {
  private:
   std::optional<StampedPose> tracked_;    // the frame before; none if that is lost
   Pose T_W_expected_ = Pose::Identity();  // the last known pose, moved on by the motions measured since
-  // Of T_W_expected_; none if a motion since the last known pose was not measured.
+  // This is the covariance of T_W_expected_; none if a motion since the last known pose was not measured.
   std::optional<Matrix6d> covariance_;
   std::vector<MotionPrior> measured_, contradicting_;
   double stamp_s_ = 0.0;  // of the frame predicted last
