@@ -14,6 +14,7 @@
 #define BLOCK_NEAR_SURFACE \
   0x1fe  // some voxel lies within a voxel's diagonal of the surface: a bit an octant of the block,
 #define BLOCK_NEAR_SURFACE_SHIFT 1  // from this one on, in x, y and z
+#define BLOCK_SURE 0x200            // some distance has been as sure as FusionArgs.min_certainty
 
 // A work-item of the kernels over whole blocks takes so many voxels: one on a GPU; on a CPU a block, or a
 // large block's slice.

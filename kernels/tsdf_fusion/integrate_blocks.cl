@@ -70,7 +70,7 @@ __kernel void integrate_blocks(__global char* voxels, __global const int* visibl
   const float3 middle = transform_point(T_D_W, (convert_float3(block) + 0.5f) * block_m);
   const float ray_length = length(middle) / fmax(middle.z, grid.voxel_size_m);
   const vuchar near_steps = (vuchar)(min(1.7320508f * grid.voxel_size_m * steps_per_m, (float)TSDF_MAX));
-  vuchar data = 0, octants = 0;
+  vuchar data = 0, octants = 0, sure = 0;
 
   for (int part = first_voxel; part < first_voxel + ITEM_VOXELS; part += PART_VOXELS) {
     // All of a part's pixels are found before any is read, so that a CPU need not wait for one after the
@@ -121,6 +121,7 @@ __kernel void integrate_blocks(__global char* voxels, __global const int* visibl
         }
         ALIGNED(vchar, distances + voxel) = distance;
         ALIGNED(vuchar, certainties + voxel) = new_byte;
+        sure |= select((vuchar)(0), (vuchar)(1), TO_VMASK8(TO_VINT(new_byte) >= args.min_certainty));
       }
       const vuchar octant_bits = LANE_OCTANT_BITS << (uchar)OCTANT(voxel);
       data |= AS_VUCHAR(distance) ^ (uchar)(TSDF_CHI);
@@ -128,6 +129,7 @@ __kernel void integrate_blocks(__global char* voxels, __global const int* visibl
     }
   }
 
-  const int bits = (any_bits(data) != 0 ? BLOCK_HAS_DATA : 0) | any_bits(octants) << BLOCK_NEAR_SURFACE_SHIFT;
+  const int bits = (any_bits(data) != 0 ? BLOCK_HAS_DATA : 0) |
+                   any_bits(octants) << BLOCK_NEAR_SURFACE_SHIFT | (any_bits(sure) != 0 ? BLOCK_SURE : 0);
   if ((block_states[slot] & bits) != bits) atomic_or(block_states + slot, bits);
 }

@@ -142,7 +142,7 @@ __kernel void list_visible_blocks(__global const int* groups, int group_count, i
   if (found_count == 0) return;
   const int first = atomic_add(count, found_count);
   for (int i = 0; i < found_count; ++i) {
-    block_states[found[i]] = 0;
+    block_states[found[i]] &= BLOCK_SURE;
     visible[first + i] = found[i];
   }
 }

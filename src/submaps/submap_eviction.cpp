@@ -6,6 +6,7 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/submaps/submap_collection.h"
 #include "map/view_volume.h"
+#include "shared/types.h"
 #include "submaps/block_store.h"
 #include "submaps/pool_groups.h"
 
@@ -87,6 +88,8 @@ bool SubmapCollection::evict(std::vector<int> slots) {
                "), and its memory is full: new surface is left out";
     return false;
   }
+  dropUnsure(slots);
+  if (slots.empty()) return true;
   BlockSet kept;
   for (auto& [group, blocks] : groupsIn(map_, layers_, slots)) {
     try {
@@ -100,6 +103,14 @@ bool SubmapCollection::evict(std::vector<int> slots) {
   if (!kept.empty()) slots.erase(std::remove_if(slots.begin(), slots.end(), isKept), slots.end());
   map_.evict(slots);
   return kept.empty();
+}
+
+void SubmapCollection::dropUnsure(std::vector<int>& slots) {
+  const std::vector<int> states = map_.states(slots);
+  std::vector<int> sure, unsure;
+  for (size_t i = 0; i < slots.size(); ++i) (states[i] & BLOCK_SURE ? sure : unsure).push_back(slots[i]);
+  map_.remove(unsure);
+  slots = std::move(sure);
 }
 
 void SubmapCollection::store(const BlockIndex& group, BlockGroups blocks) {

@@ -6,6 +6,7 @@
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/submaps/submap_collection.h"
 #include "map/view_volume.h"
+#include "shared/types.h"
 #include "submaps/block_store.h"
 #include "submaps/pool_groups.h"
 
@@ -85,6 +86,8 @@ SubmapCollection::BlockSet SubmapCollection::bringBack(const std::vector<BlockIn
   const std::vector<BlockIndex>& blocks = all.front().blocks;
   if (blocks.empty()) return {};
   const std::vector<int> slots = map_.insert(blocks);
+  for (int& state : all.front().states)
+    state |= BLOCK_SURE;  // earlier versions stored no other blocks, either
   map_.setStates(slots, all.front().states);
   for (size_t i = 0; i < layers_.size(); ++i) map_.setVoxels(layers_[i].name, slots, all[i].voxels);
   return {blocks.begin(), blocks.end()};

@@ -125,6 +125,9 @@ class SubmapCollection {
   GroupSlots slotsOutside(const Window& window) const;
   // Puts blocks into the store, and takes them out of the pool; false if the store cannot take all of them.
   bool evict(std::vector<int> slots);
+  // Forgets the blocks of slots that are left before any distance in them was sure: a noisy sensor strews
+  // others about far surfaces each time it comes by.
+  void dropUnsure(std::vector<int>& slots);
   void store(const BlockIndex& group, BlockGroups blocks);
   // Evicts blocks that are not in view, the farthest first, until so many slots are free.
   void makeRoom(size_t slots);
