@@ -32,7 +32,8 @@ Matrix6d scatterOf(const std::vector<float>& partial_sums, int row_step) {
   Vector6d mean = Vector6d::Zero();
   for (size_t row = 0; row < rows; ++row) {
     const float* sums = &partial_sums[row * ICP_SUMS + kGradient];
-    for (int i = 0; i < 6; ++i) gradients[row * kBands / rows](i) += row_step * static_cast<double>(sums[i]);
+    Vector6d& gradient = gradients[row * kBands / rows];
+    for (int i = 0; i < 6; ++i) gradient(i) += row_step * static_cast<double>(sums[i]);
   }
   for (const Vector6d& gradient : gradients) mean += gradient / kBands;
   Matrix6d scatter = Matrix6d::Zero();
@@ -52,8 +53,9 @@ double IcpSystem::correlated() const {
 
 IcpSystem sumRows(const std::vector<float>& partial_sums, int row_step) {
   std::array<double, ICP_SUMS> sums{};
-  for (size_t i = 0; i < partial_sums.size(); ++i)
-    sums[i % ICP_SUMS] += row_step * static_cast<double>(partial_sums[i]);
+  for (size_t first = 0; first < partial_sums.size(); first += ICP_SUMS) {
+    for (size_t i = 0; i < ICP_SUMS; ++i) sums[i] += row_step * static_cast<double>(partial_sums[first + i]);
+  }
   IcpSystem system;
   system.hessian = symmetric(&sums[0]);
   size_t next = kGradient;
