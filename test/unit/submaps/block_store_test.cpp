@@ -117,7 +117,7 @@ TEST(BlockStore, KeepsWhatGoesThroughAServer) {
   if (PostgresServer::programs().empty()) GTEST_SKIP() << "no PostgreSQL server here";
   PostgresServer server;
   BlockStore store(smallMemory(server.uri("scratch")), layers(), kBlockSize);
-  expectToKeepAll(store, 300);
+  expectToKeepAll(store, 150);
 }
 
 // Mapping goes on in memory while the server is away; what was stored comes back with it.
@@ -151,7 +151,7 @@ TEST(BlockStore, KeepsWhatGoesThroughASlowServer) {
   const std::string slow =
       uri.substr(0, name) + (uri.find('?') < name ? "&" : "?") + options + uri.substr(name);
   BlockStore store(smallMemory(slow), layers(), kBlockSize);
-  expectToKeepAll(store, 300);
+  expectToKeepAll(store, 150);
 }
 
 TEST(BlockStore, SaysThatTheDiskIsFullAndCatchesUp) {
