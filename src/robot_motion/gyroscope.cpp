@@ -7,7 +7,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kKept_s = 2.0;
+constexpr double kRatesKept_s = 2.0;
 constexpr double kMissing_s = 0.1;
 constexpr double kBias_rad_s = 0.02;        // of a sensor that is not known yet
 constexpr double kBiasWalk_rad2_s3 = 1e-9;  // by which it changes, a variance a second
@@ -29,14 +29,14 @@ void Gyroscope::add(const ImuReading& reading) {
   if (!reading.angular_velocity_D || !reading.angular_velocity_D->allFinite()) return;
   if (!rates_.empty()) {
     const double seconds = reading.stamp_s - rates_.back().stamp_s;
-    if (seconds <= 0.0 && seconds > -kKept_s) return;
+    if (seconds <= 0.0 && seconds > -kRatesKept_s) return;
     if (seconds < 0.0) {
       rates_.clear();
       before_s_.reset();
     }
   }
   rates_.push_back({reading.stamp_s, *reading.angular_velocity_D});
-  while (rates_.front().stamp_s < reading.stamp_s - kKept_s) rates_.pop_front();
+  while (rates_.front().stamp_s < reading.stamp_s - kRatesKept_s) rates_.pop_front();
 }
 
 std::optional<FrameMotion> Gyroscope::motionTo(double stamp_s, const RobotMotionParameters& parameters) {

@@ -8,15 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "depth_fusion/geometry/angles.h"
+
 namespace depth_fusion {
 namespace {
 
 constexpr double kRemembered_s = 10.0, kCompared_s = 1.0;
-constexpr double kSigmas = 4.0, kLeast_m = 0.03, kLeast_rad = 0.03;
+constexpr double kSigmas = 4.0, kLeastError_m = 0.03, kLeastError_rad = 0.03;
 constexpr int kDoubt = 45, kMostDoubt = 90;  // comparisons, one a frame
 constexpr int kDoubtOfOne = 3;               // that contradicts, where one that agrees takes one away
-constexpr double kDegPerRad = 180.0 / 3.141592653589793;
-constexpr double kExplained = 0.3;  // what is left of the differences where their cause is found
+constexpr double kExplained = 0.3;           // what is left of the differences where their cause is found
 constexpr double kMostOffset_s = 0.4, kOffsetStep_s = 0.005, kLeastOffset_s = 0.015;
 constexpr double kLeastTurn_rad = 0.05;
 
@@ -38,50 +39,59 @@ bool contradicts(const ComparedMotion& motion, const RobotMotionParameters& para
   const double way_m =
       std::max(motion.by_camera.translation().norm(), motion.by_odometry.translation().norm());
   const double angle_rad = std::max(rotationAngle(motion.by_camera), rotationAngle(motion.by_odometry));
-  return error.translation().norm() > kLeast_m + kSigmas * parameters.odometry_distance_sigma * way_m ||
-         rotationAngle(error) > kLeast_rad + kSigmas * parameters.odometry_angle_sigma * angle_rad;
+  return error.translation().norm() > kLeastError_m + kSigmas * parameters.odometry_distance_sigma * way_m ||
+         rotationAngle(error) > kLeastError_rad + kSigmas * parameters.odometry_angle_sigma * angle_rad;
 }
 
-// Speed and turn rate at the time by odometry, between frames in proportion; none if it is not remembered.
-std::optional<Eigen::Vector2d> ratesAt(const Motions& motions, double stamp_s) {
-  const auto middle_s = [](const ComparedMotion& motion) { return motion.stamp_s - motion.interval_s / 2.0; };
-  const auto rates_of = [](const ComparedMotion& motion) -> Eigen::Vector2d {
-    return Eigen::Vector2d(motion.by_odometry.translation().norm(), rotationAngle(motion.by_odometry)) /
-           motion.interval_s;
-  };
-  for (size_t i = 1; i < motions.size(); ++i) {
-    const double from_s = middle_s(motions[i - 1]), to_s = middle_s(motions[i]);
-    if (stamp_s < from_s || stamp_s > to_s) continue;
-    const double part = (stamp_s - from_s) / (to_s - from_s);
-    return Eigen::Vector2d((1.0 - part) * rates_of(motions[i - 1]) + part * rates_of(motions[i]));
+// Speed and turn rate of one of the two, each in the middle of its interval.
+struct Rates {
+  std::vector<double> times_s;
+  std::vector<Eigen::Vector2d> rates;
+
+  // In proportion between the two nearest; none before the first and after the last.
+  std::optional<Eigen::Vector2d> at(double time_s) const {
+    const auto next = std::lower_bound(times_s.begin(), times_s.end(), time_s);
+    if (next == times_s.begin() || next == times_s.end()) return std::nullopt;
+    const size_t i = static_cast<size_t>(next - times_s.begin());
+    const double part = (time_s - times_s[i - 1]) / (times_s[i] - times_s[i - 1]);
+    return Eigen::Vector2d((1.0 - part) * rates[i - 1] + part * rates[i]);
   }
-  return std::nullopt;
+};
+
+Rates ratesOf(const Motions& motions, Pose ComparedMotion::*source) {
+  Rates rates;
+  for (const ComparedMotion& motion : motions) {
+    rates.times_s.push_back(motion.stamp_s - motion.interval_s / 2.0);
+    rates.rates.push_back(
+        Eigen::Vector2d((motion.*source).translation().norm(), rotationAngle(motion.*source)) /
+        motion.interval_s);
+  }
+  return rates;
 }
 
 // The mean squared difference of the rates if odometry's stamps are so much too late.
-double differenceAt(const Motions& motions, double late_s) {
+double differenceAt(const Rates& camera, const Rates& odometry, double late_s) {
   double sum = 0.0;
   int count = 0;
-  for (const ComparedMotion& motion : motions) {
-    const double at_s = motion.stamp_s - motion.interval_s / 2.0;
-    if (at_s < motions.front().stamp_s + kMostOffset_s || at_s > motions.back().stamp_s - kMostOffset_s)
+  for (size_t i = 0; i < camera.times_s.size(); ++i) {
+    const double time_s = camera.times_s[i];
+    if (time_s < camera.times_s.front() + kMostOffset_s || time_s > camera.times_s.back() - kMostOffset_s)
       continue;
-    const std::optional<Eigen::Vector2d> rates = ratesAt(motions, at_s + late_s);
+    const std::optional<Eigen::Vector2d> rates = odometry.at(time_s + late_s);
     if (!rates) continue;
-    const Eigen::Vector2d by_camera =
-        Eigen::Vector2d(motion.by_camera.translation().norm(), rotationAngle(motion.by_camera)) /
-        motion.interval_s;
-    sum += (*rates - by_camera).squaredNorm();
+    sum += (*rates - camera.rates[i]).squaredNorm();
     ++count;
   }
   return count > 0 ? sum / count : 0.0;
 }
 
 std::string offsetOf(const Motions& motions) {
-  const double as_it_is = differenceAt(motions, 0.0);
+  const Rates camera = ratesOf(motions, &ComparedMotion::by_camera);
+  const Rates odometry = ratesOf(motions, &ComparedMotion::by_odometry);
+  const double as_it_is = differenceAt(camera, odometry, 0.0);
   std::pair<double, double> best{as_it_is, 0.0};
   for (double late_s = -kMostOffset_s; late_s <= kMostOffset_s; late_s += kOffsetStep_s)
-    best = std::min(best, {differenceAt(motions, late_s), late_s});
+    best = std::min(best, {differenceAt(camera, odometry, late_s), late_s});
   if (std::abs(best.second) < kLeastOffset_s || best.first > kExplained * as_it_is) return "";
   char text[160];
   std::snprintf(text, sizeof(text), "its stamps are about %.0f ms too %s; correct them by %+.0f ms",
