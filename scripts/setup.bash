@@ -120,11 +120,14 @@ prepare_ros_network() {
   echo "127.0.0.1 localhost" | as_root tee -a /etc/hosts >/dev/null || say "could not write /etc/hosts; ROS will not start"
 }
 
-# Prepares the build, with the given options of CMake; what an earlier call has set, stays.
+# Prepares the build, with the given options of CMake; what an earlier call has set, stays. Sources are compiled eight at a time,
+# which takes a third of the time for all of them, but more for one: who changes sources sets DEPTH_FUSION_UNITY=OFF. The
+# compiler does not look for memory to use again before it has taken 1 GB.
 configure() {
   local log="$BUILD/configure.log"
   mkdir -p "$BUILD"
-  cmake -S "$ROOT" -B "$BUILD" -DCATKIN_ENABLE_TESTING=ON -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@" >"$log" 2>&1 ||
+  cmake -S "$ROOT" -B "$BUILD" -DCATKIN_ENABLE_TESTING=ON -DPYTHON_EXECUTABLE=/usr/bin/python3 \
+    -DCMAKE_UNITY_BUILD="${DEPTH_FUSION_UNITY:-ON}" -DCMAKE_CXX_FLAGS="--param=ggc-min-heapsize=1000000" "$@" >"$log" 2>&1 ||
     { cat "$log" >&2; fail "the build cannot be configured; the reason stands above"; }
 }
 

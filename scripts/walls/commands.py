@@ -1,5 +1,6 @@
 """How the build folder says that the sources are compiled, without the precompiled headers."""
 import json
+import pathlib
 import re
 import shlex
 import shutil
@@ -18,10 +19,19 @@ def read(build):
     path = build / "compile_commands.json"
     if not path.exists():
         raise NotConfigured(f"{path} is missing; configure the build, or let scripts/test do it")
-    entries = json.loads(path.read_text())
+    entries = [part for entry in json.loads(path.read_text()) for part in _by_source(entry)]
     for entry in entries:
         entry["arguments"] = list(_without_precompiled(shlex.split(entry.pop("command"))))
     return entries
+
+
+def _by_source(entry):
+    """One entry for each of the sources that are compiled together."""
+    if "/Unity/unity_" not in entry["file"]:
+        return [entry]
+    text = pathlib.Path(entry["file"]).read_text()
+    return [{**entry, "file": source, "command": entry["command"].replace(entry["file"], source)}
+            for source in re.findall(r'^#include "(.+)"$', text, re.M)]
 
 
 def _without_precompiled(arguments):
@@ -29,7 +39,7 @@ def _without_precompiled(arguments):
     for argument in rest:
         if argument == "-include":
             next(rest)
-        elif argument != "-Winvalid-pch":
+        elif argument != "-Winvalid-pch" and not argument.startswith("--param="):
             yield argument
 
 

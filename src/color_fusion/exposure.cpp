@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kDarkest = 16.0;
 constexpr double kBrightest = 240.0;
-constexpr size_t kMinPoints = 200;
+constexpr size_t kMinRatios = 200;
 constexpr double kMostGain = 4.0;
 
 bool usable(double channel) { return channel >= kDarkest && channel <= kBrightest; }
@@ -39,7 +39,7 @@ std::optional<Eigen::Array3d> exposureGain(const std::vector<SurfaceColor>& surf
   }
   Eigen::Array3d gain;
   for (int channel = 0; channel < 3; ++channel) {
-    if (ratios[channel].size() < kMinPoints) return std::nullopt;
+    if (ratios[channel].size() < kMinRatios) return std::nullopt;
     gain[channel] = percentile(std::move(ratios[channel]), 0.5);
   }
   return gain.max(1.0 / kMostGain).min(kMostGain);

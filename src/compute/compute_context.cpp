@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "common/lowered.h"
 #include "compute/kernel.h"
 #include "compute/opencl.h"
 #include "depth_fusion/common/error.h"
@@ -42,21 +43,15 @@ DeviceInfo infoOf(const cl::Device& device) {
   return info;
 }
 
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool matches(const std::string& choice, size_t index, const DeviceInfo& info) {
   if (choice.empty()) return true;
   if (std::all_of(choice.begin(), choice.end(), [](unsigned char c) { return std::isdigit(c); })) {
     return choice == std::to_string(index);
   }
-  const std::string wanted = lowerCase(choice);
+  const std::string wanted = lowered(choice);
   if (wanted == "cpu") return info.is_cpu;
   if (wanted == "gpu") return !info.is_cpu;
-  return lowerCase(info.name).find(wanted) != std::string::npos;
+  return lowered(info.name).find(wanted) != std::string::npos;
 }
 
 // Explicit vectors pay on CPUs, whose compilers vectorise these kernels poorly; a GPU's work-items are its

@@ -1,13 +1,9 @@
 #include "esdf/cell_lists.h"
 
+#include "esdf/cell_pool.h"
 #include "map/map_args.h"
 
 namespace depth_fusion {
-namespace {
-
-constexpr int kAllChi = static_cast<int>(0x80808080u);
-
-}  // namespace
 
 void CellLists::beginChanges(size_t blocks) {
   ensureBytes(compute_, changes_, blocks * sizeof(int), "what has changed of cells");

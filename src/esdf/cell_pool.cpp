@@ -9,7 +9,6 @@ namespace depth_fusion {
 namespace {
 
 constexpr size_t kFirstBlocks = 256;
-constexpr int kAllChi = static_cast<int>(0x80808080u);
 
 }  // namespace
 

@@ -8,6 +8,9 @@
 
 namespace depth_fusion {
 
+// Four distance bytes of TSDF_CHI.
+constexpr int kAllChi = static_cast<int>(0x80808080u);
+
 // Blocks come, and stay until all go. The memory grows with them.
 class CellPool {
  public:

@@ -3,14 +3,14 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kMaxGap_s = 1.0;    // over which a mean velocity is one
-constexpr double kUnknown_m = 0.33;  // standard deviation of a motion that nothing has measured
+constexpr double kMaxGap_s = 1.0;       // over which a mean velocity is one
+constexpr double kUnmeasured_m = 0.33;  // standard deviation of a motion that nothing has measured
 constexpr double kUnknown_rad = 0.33;
 
 Matrix6d unknownMotion() {
   Vector6d variances;
   variances << Eigen::Vector3d::Constant(kUnknown_rad * kUnknown_rad),
-      Eigen::Vector3d::Constant(kUnknown_m * kUnknown_m);
+      Eigen::Vector3d::Constant(kUnmeasured_m * kUnmeasured_m);
   return variances.asDiagonal();
 }
 

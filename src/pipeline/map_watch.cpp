@@ -6,9 +6,9 @@
 namespace depth_fusion {
 namespace {
 
-constexpr int kFirstFrames = 30;          // say what is usual, and no more
-constexpr double kMemory_frames = 300.0;  // of what is usual
-constexpr double kShortMemory_frames = 15.0;
+constexpr int kFirstFrames = 30;         // say what is usual, and no more
+constexpr double kUsual_frames = 300.0;  // of what is usual
+constexpr double kOfLate_frames = 15.0;
 constexpr int kManyFrames = 30;  // that speak against the map until it is doubted
 constexpr int kManyGuesses = 5;  // a fast hand moves by a centimetre or two in each
 constexpr int kFramesToComparison = 15;
@@ -16,7 +16,7 @@ constexpr int kManyComparisons = 5;  // that differ, in a row
 // Between a pose and where an older view puts it: half of what makes a pose a wrong one.
 constexpr double kMoved_m = 0.03, kMoved_rad = 0.035;
 constexpr double kMoreContradicted = 0.15;
-constexpr double kWorseMatches = 0.85;
+constexpr double kMisfit = 0.85;
 
 }  // namespace
 
@@ -43,11 +43,11 @@ void MapWatch::watchGuesses(double stamp_s, const TrackingResult& result) {
 
 void MapWatch::watchFit(double stamp_s, const Fit& fit) {
   ++frames_;
-  of_late_.take(fit, std::min<double>(frames_, kShortMemory_frames));
+  of_late_.take(fit, std::min<double>(frames_, kOfLate_frames));
   const bool misfits =
       frames_ > kFirstFrames && (of_late_.contradicted > usual_.contradicted + kMoreContradicted ||
-                                 of_late_.match_quality < kWorseMatches * usual_.match_quality);
-  if (!misfits) usual_.take(fit, std::min<double>(frames_, kMemory_frames));
+                                 of_late_.match_quality < kMisfit * usual_.match_quality);
+  if (!misfits) usual_.take(fit, std::min<double>(frames_, kUsual_frames));
   misfit_.note(stamp_s, misfits);
   if (misfit_.frames < kManyFrames) return;
   char what[200];

@@ -14,7 +14,7 @@ namespace {
 
 constexpr char kSeparators[] = " \t,;";
 
-bool earlier(const TimedFile& a, const TimedFile& b) { return a.stamp_s < b.stamp_s; }
+bool earlierFile(const TimedFile& a, const TimedFile& b) { return a.stamp_s < b.stamp_s; }
 
 std::optional<double> parseStamp(const std::string& text) {
   const auto numbers = parseNumbers(text);
@@ -119,7 +119,7 @@ bool depthIsSecond(const std::vector<TimedPair>& pairs) {
 
 std::vector<TimedFile> readTimedFiles(const std::string& list_path, std::string* remark) {
   auto files = readEntries<TimedFile>(list_path, "stamp file", remark, parseTimedFile);
-  std::stable_sort(files.begin(), files.end(), earlier);
+  std::stable_sort(files.begin(), files.end(), earlierFile);
   if (remark != nullptr) noteEqualStamps(files, list_path, *remark);
   return files;
 }
@@ -130,13 +130,13 @@ std::vector<TimedPair> readTimedPairs(const std::string& list_path, std::string*
     for (TimedPair& pair : pairs) std::swap(pair.depth, pair.color);
   }
   std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const TimedPair& a, const TimedPair& b) { return earlier(a.depth, b.depth); });
+                   [](const TimedPair& a, const TimedPair& b) { return earlierFile(a.depth, b.depth); });
   return pairs;
 }
 
 const TimedFile* nearestFile(const std::vector<TimedFile>& files, double stamp_s, double max_gap_s) {
   const auto gap_s = [&](const TimedFile& file) { return std::abs(file.stamp_s - stamp_s); };
-  const auto after = std::lower_bound(files.begin(), files.end(), TimedFile{stamp_s, ""}, earlier);
+  const auto after = std::lower_bound(files.begin(), files.end(), TimedFile{stamp_s, ""}, earlierFile);
   const TimedFile* nearest = nullptr;
   if (after != files.end()) nearest = &*after;
   if (after != files.begin() && (nearest == nullptr || gap_s(*std::prev(after)) <= gap_s(*nearest))) {

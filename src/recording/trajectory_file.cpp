@@ -10,7 +10,7 @@
 namespace depth_fusion {
 namespace {
 
-bool earlier(const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; }
+bool earlierPose(const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; }
 
 constexpr size_t kNumbers = 8;
 
@@ -54,7 +54,7 @@ Trajectory readTrajectory(const std::string& path, std::string* remark) {
   check(is_forgiven, left_out.firstProblem());
   if (!left_out.empty()) *remark += left_out.text("line");
   check(!trajectory.empty(), path + ": holds no pose; expected lines 'stamp tx ty tz qx qy qz qw'");
-  std::stable_sort(trajectory.begin(), trajectory.end(), earlier);
+  std::stable_sort(trajectory.begin(), trajectory.end(), earlierPose);
   return trajectory;
 }
 
@@ -67,7 +67,7 @@ void writeTrajectory(const std::string& path, const Trajectory& trajectory) {
 std::optional<Pose> poseAt(const Trajectory& trajectory, double stamp_s, double max_gap_s) {
   StampedPose wanted;
   wanted.stamp_s = stamp_s;
-  const auto after = std::lower_bound(trajectory.begin(), trajectory.end(), wanted, earlier);
+  const auto after = std::lower_bound(trajectory.begin(), trajectory.end(), wanted, earlierPose);
   if (after == trajectory.end()) return std::nullopt;
   if (after->stamp_s == stamp_s) return after->T_W_D;
   if (after == trajectory.begin()) return std::nullopt;

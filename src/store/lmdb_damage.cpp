@@ -19,7 +19,7 @@ struct OpenRows {
   LmdbCursor cursor;
 };
 
-OpenRows openRows(const std::string& path, FileLength length) {
+OpenRows openDamaged(const std::string& path, FileLength length) {
   // Without the lock only where there is nobody to lock out.
   const bool has_lock = access((path + "-lock").c_str(), W_OK) == 0;
   OpenRows rows;
@@ -38,7 +38,7 @@ OpenRows openRows(const std::string& path, FileLength length) {
 // Touches every page of every row.
 void touchAll(const std::string& path) {
   constexpr size_t kPage = 4096;
-  const OpenRows rows = openRows(path, FileLength::kMustFit);
+  const OpenRows rows = openDamaged(path, FileLength::kMustFit);
   MDB_val key, value;
   volatile char last = 0;
   int code = mdb_cursor_get(rows.cursor.get(), &key, &value, MDB_FIRST);
@@ -72,7 +72,7 @@ bool beginsWith(const MDB_val& key, const std::string& prefix) {
 }
 
 void sendForwards(const std::string& path, const std::string& prefix, int pipe) {
-  const OpenRows rows = openRows(path, FileLength::kMayBeCut);
+  const OpenRows rows = openDamaged(path, FileLength::kMayBeCut);
   MDB_val key{prefix.size(), const_cast<char*>(prefix.data())}, value;
   int code = mdb_cursor_get(rows.cursor.get(), &key, &value, MDB_SET_RANGE);
   for (; code == MDB_SUCCESS && beginsWith(key, prefix);
@@ -84,7 +84,7 @@ void sendForwards(const std::string& path, const std::string& prefix, int pipe) 
 }
 
 void sendBackwards(const std::string& path, const std::string& prefix, int pipe) {
-  const OpenRows rows = openRows(path, FileLength::kMayBeCut);
+  const OpenRows rows = openDamaged(path, FileLength::kMayBeCut);
   const std::string after = prefix + std::string(64, '\xff');
   MDB_val key{after.size(), const_cast<char*>(after.data())}, value;
   const int found = mdb_cursor_get(rows.cursor.get(), &key, &value, MDB_SET_RANGE);

@@ -9,10 +9,10 @@ namespace {
 constexpr size_t kItemsPerWrite = 16384;
 // A float has nine digits, and room for sign, point, exponent and a blank; normals and colours lie between -1
 // and 1 and have five decimals.
-constexpr size_t kPositionBytes = 3 * 16 + 1, kDecimalsBytes = 3 * 9 + 1;
+constexpr size_t kPositionTextBytes = 3 * 16 + 1, kDecimalsBytes = 3 * 9 + 1;
 
 void appendPosition(std::string& text, const Eigen::Vector3f& p) {
-  char line[kPositionBytes + 1];
+  char line[kPositionTextBytes + 1];
   std::snprintf(line, sizeof(line), "%16.9g%16.9g%16.9g\n", static_cast<double>(p.x()),
                 static_cast<double>(p.y()), static_cast<double>(p.z()));
   text += line;
@@ -68,7 +68,7 @@ void DaeWriter::begin(const MeshSize& size) {
   index_width_ = static_cast<int>(std::to_string(size.vertices).size());
   uint64_t offset = 0;
   write(offset, head(up_));
-  positions_ = writeSource(offset, "positions", "XYZ", size.vertices, kPositionBytes);
+  positions_ = writeSource(offset, "positions", "XYZ", size.vertices, kPositionTextBytes);
   normals_ = writeSource(offset, "normals", "XYZ", size.vertices, kDecimalsBytes);
   if (size.colored) colors_ = writeSource(offset, "colors", "RGB", size.vertices, kDecimalsBytes);
   write(offset, verticesAndTriangles(size));

@@ -5,7 +5,7 @@ namespace {
 
 constexpr uint64_t kTextBytes = 2048;
 constexpr uint64_t kVectorBytes = sizeof(Eigen::Vector3f);
-constexpr uint64_t kColorBytes = sizeof(std::array<uint16_t, 4>);
+constexpr uint64_t kLinearColorBytes = sizeof(std::array<uint16_t, 4>);
 
 GlbPart partBehind(const GlbPart& part, uint64_t count, uint64_t bytes_each) {
   return {part.offset + part.bytes, count * bytes_each, count};
@@ -19,7 +19,7 @@ void GlbWriter::begin(const MeshSize& size) {
   box_.setEmpty();
   positions_ = partBehind({}, size.vertices, kVectorBytes);
   normals_ = partBehind(positions_, size.vertices, kVectorBytes);
-  colors_ = partBehind(normals_, size.colored ? size.vertices : 0, kColorBytes);
+  colors_ = partBehind(normals_, size.colored ? size.vertices : 0, kLinearColorBytes);
   indices_ = partBehind(colors_, 3 * size.triangles, sizeof(uint32_t));
   file_.begin(kTextBytes, size.triangles == 0 ? 0 : indices_.offset + indices_.bytes);
 }
@@ -34,7 +34,7 @@ void GlbWriter::addVertices(const MeshVertex* vertices, const MeshColor* colors,
   if (size_.colored) {
     std::vector<std::array<uint16_t, 4>> linear(count);
     for (size_t i = 0; i < count; ++i) linear[i] = linearColor(colors[i]);
-    file_.write(colors_.offset + vertices_ * kColorBytes, linear.data(), count * kColorBytes);
+    file_.write(colors_.offset + vertices_ * kLinearColorBytes, linear.data(), count * kLinearColorBytes);
   }
   vertices_ += count;
 }

@@ -1,9 +1,9 @@
 #include "depth_fusion/surface_mesh/mesh_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
+#include "common/lowered.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "surface_mesh/dae_writer.h"
@@ -29,9 +29,7 @@ const std::vector<std::string>& meshFormats() {
 }
 
 std::string endingOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lowered(std::filesystem::path(path).extension().string());
   return ending.empty() ? ending : ending.substr(1);
 }
 

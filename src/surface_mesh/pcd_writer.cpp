@@ -5,7 +5,7 @@
 namespace depth_fusion {
 namespace {
 
-std::string header(const MeshSize& size) {
+std::string pcdHeader(const MeshSize& size) {
   const std::string points = std::to_string(size.vertices);
   return "# .PCD v0.7 - depth_fusion, metres\nVERSION 0.7\nFIELDS x y z normal_x normal_y normal_z" +
          std::string(size.colored ? " rgb" : "") + "\nSIZE 4 4 4 4 4 4" + (size.colored ? " 4" : "") +
@@ -17,7 +17,7 @@ std::string header(const MeshSize& size) {
 }  // namespace
 
 void PcdWriter::begin(const MeshSize& size) {
-  const std::string text = header(size);
+  const std::string text = pcdHeader(size);
   file_.writeAt(0, text.data(), text.size());
   offset_ = text.size();
 }

@@ -19,7 +19,7 @@ unsigned char* put(const Value& value, unsigned char* place) {
   return std::copy(bytes, bytes + sizeof(Value), place);
 }
 
-std::string header(const MeshSize& size) {
+std::string plyHeader(const MeshSize& size) {
   return "ply\nformat binary_little_endian 1.0\ncomment depth_fusion, metres\nelement vertex " +
          std::to_string(size.vertices) +
          "\nproperty float x\nproperty float y\nproperty float z\n"
@@ -36,7 +36,7 @@ PlyWriter::PlyWriter(const std::string& path) : file_(std::make_unique<WholeFile
 PlyWriter::~PlyWriter() = default;
 
 void PlyWriter::begin(const MeshSize& size) {
-  const std::string text = header(size);
+  const std::string text = plyHeader(size);
   file_->writeAt(0, text.data(), text.size());
   vertex_offset_ = text.size();
   colored_ = size.colored;

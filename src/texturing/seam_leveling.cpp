@@ -7,7 +7,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr int kBlur_px = 5;
+constexpr int kSeamBlur_px = 5;
 constexpr double kSmallness = 1e-3;  // how much a colour that is added costs by itself
 constexpr int kMostIterations = 300;
 constexpr double kTolerance = 1e-4;
@@ -36,7 +36,7 @@ std::vector<Eigen::Array3f> colorsOf(const TriangleMesh& mesh, const std::vector
     for (int i = range.start; i < range.end; ++i) {
       if (wanted[i].empty()) continue;
       cv::Mat image;
-      cv::blur(imageOf(views[i].view), image, {kBlur_px, kBlur_px});
+      cv::blur(imageOf(views[i].view), image, {kSeamBlur_px, kSeamBlur_px});
       const Eigen::Isometry3f T_C_W = views[i].view.T_W_C.inverse().cast<float>();
       for (const auto& [vertex, entry] : wanted[i]) {
         const Eigen::Vector3f uvz = projected(T_C_W * mesh.vertices[vertex].position_W, views[i].view.camera);

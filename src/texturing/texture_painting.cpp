@@ -20,7 +20,7 @@ struct PaintedFace {
   std::array<cv::Point2f, 3> corners;
 };
 
-struct Page {
+struct PaintedPage {
   cv::Mat owners;  // CV_32SC1: the face that a pixel belongs to, or kNoOwner
   cv::Mat sums;    // CV_16UC3: kSteps times the colour
 };
@@ -80,7 +80,7 @@ class Painting {
   PaintedTexture finish() {
     PaintedTexture painted;
     double owned = 0.0, all = 0.0;
-    for (Page& page : pages_) {
+    for (PaintedPage& page : pages_) {
       cv::Mat colors;
       page.sums.convertTo(colors, CV_8U, 1.0 / static_cast<double>(kSteps));
       owned += cv::countNonZero(page.owners != kNoOwner);
@@ -125,7 +125,7 @@ class Painting {
       corners_C[i] = T_C_W * mesh_.vertices[t[i]].position_W;
     }
     const Eigen::Array3f gain = views_[view].gain.cast<float>();
-    Page& page = pages_[faces_[face].page];
+    PaintedPage& page = pages_[faces_[face].page];
     forEachPixelOf(faces_[face].corners, page.owners.size(), kSlack_px,
                    [&](const cv::Point& at, const std::array<float, 3>& place) {
                      if (page.owners.at<int>(at) != static_cast<int>(face)) return;
@@ -180,7 +180,7 @@ class Painting {
   const std::vector<uint16_t>& labels_;
   const VertexViews& vertices_;
   std::vector<PaintedFace> faces_;
-  std::vector<Page> pages_;
+  std::vector<PaintedPage> pages_;
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr int kMargin_px = 3;        // about a patch: neighbours in the texture do not shine in
+constexpr int kPatchMargin_px = 3;   // about a patch: neighbours in the texture do not shine in
 constexpr size_t kFacesAcross = 32;  // of a patch that no picture shows
 constexpr int kFacePixels = 2;
 
@@ -45,12 +45,12 @@ void measure(const TriangleMesh& mesh, const TexturingView& view, TexturePatch& 
     }
     patch.corners.push_back(corners);
   }
-  const cv::Point2f origin(std::floor(least.x()) - kMargin_px, std::floor(least.y()) - kMargin_px);
+  const cv::Point2f origin(std::floor(least.x()) - kPatchMargin_px, std::floor(least.y()) - kPatchMargin_px);
   for (auto& corners : patch.corners) {
     for (cv::Point2f& corner : corners) corner -= origin;
   }
-  patch.size = {static_cast<int>(std::ceil(most.x() - origin.x)) + kMargin_px + 1,
-                static_cast<int>(std::ceil(most.y() - origin.y)) + kMargin_px + 1};
+  patch.size = {static_cast<int>(std::ceil(most.x() - origin.x)) + kPatchMargin_px + 1,
+                static_cast<int>(std::ceil(most.y() - origin.y)) + kPatchMargin_px + 1};
 }
 
 std::vector<TexturePatch> unseen(const std::vector<uint16_t>& labels) {

@@ -16,7 +16,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr float kMargin_px = 3.0f;
+constexpr float kAlignedMargin_px = 3.0f;
 constexpr double kPointWeight = 16.0;  // of a colour that counts fully
 
 struct MeanColor {
@@ -91,7 +91,7 @@ class ViewAlignment {
       const Eigen::Vector3d ray_W = view.T_W_C.translation() - points_[i].p_W.cast<double>();
       if (ray_W.normalized().dot(points_[i].normal_W.cast<double>()) < least_cosine) continue;
       const Eigen::Vector3f uvz = pixelOf(points_[i].p_W, T_C_W, view.camera);
-      if (isInside(uvz, view.camera, kMargin_px) && in_view.sees(uvz) && !in_view.isAtOutline(uvz))
+      if (isInside(uvz, view.camera, kAlignedMargin_px) && in_view.sees(uvz) && !in_view.isAtOutline(uvz))
         seen.push_back(i);
     }
     return seen;
@@ -103,7 +103,7 @@ class ViewAlignment {
     const cv::Mat image = imageOf(chosen.view);
     for (const uint32_t point : seen_[i]) {
       const Eigen::Vector3f uvz = pixelOf(points_[point].p_W, poses_C_W_[i], chosen.view.camera);
-      if (!isInside(uvz, chosen.view.camera, kMargin_px)) continue;
+      if (!isInside(uvz, chosen.view.camera, kAlignedMargin_px)) continue;
       action(point, chosen.gain * sampled(image, uvz.x(), uvz.y()).cast<double>());
     }
   }

@@ -159,6 +159,14 @@ class Tidy(Check):
         self.write("src/common/counter.cpp", GOOD["src/common/counter.cpp"])
         self.assertIn("0 of them looked at now", self.check("tidy").stderr)
 
+    def test_sources_that_are_compiled_together_are_looked_at_one_by_one(self):
+        together = self.root / "build/Unity/unity_0_cxx.cxx"
+        source = self.root / "src/common/counter.cpp"
+        self.write("build/Unity/unity_0_cxx.cxx", f'/* generated */\n\n#include "{source}"\n')
+        commands = json.loads((self.root / "build/compile_commands.json").read_text().replace(str(source), str(together)))
+        self.write("build/compile_commands.json", json.dumps(commands))
+        self.assertIn("1 files, 1 of them looked at now", self.check("tidy").stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

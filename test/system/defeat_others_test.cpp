@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include "depth_fusion/geometry/angles.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "support/synthetic_fusion.h"
 #include "support/test_compute.h"
@@ -17,7 +18,6 @@ namespace depth_fusion {
 namespace {
 
 constexpr double kWrong_m = 0.05;
-constexpr double kDegPerRad = 180.0 / 3.141592653589793;
 constexpr double kWrong_deg = 3.0;
 
 struct Outcome {

@@ -17,8 +17,8 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kFps = 10.0;
-constexpr double kMaxGap_s = 0.05;  // between poses of the truth
+constexpr double kSimulatedFps = 10.0;
+constexpr double kMaxTruthGap_s = 0.05;  // between poses of the truth
 
 struct CovarianceInput {
   const char* name;
@@ -132,7 +132,7 @@ class CovarianceBenchmark {
     SimulationOptions options;
     options.scene = input.scene;
     options.frames = options_.frames;
-    options.fps = kFps;
+    options.fps = kSimulatedFps;
     options.seed = static_cast<unsigned>(seed);
     options.intrinsics = makeScene(input.scene).sensor.camera;
     while (options.intrinsics.width > options_.width) options.intrinsics = halved(options.intrinsics);
@@ -160,7 +160,7 @@ class CovarianceBenchmark {
       if (pipeline == nullptr)
         pipeline = std::make_unique<ReconstructionPipeline>(compute_, input.parameters, frame->intrinsics);
       const TrackingResult tracked = pipeline->processFrame(*frame).tracking;
-      const std::optional<Pose> truth = poseAt(input.truth, frame->stamp_s, kMaxGap_s);
+      const std::optional<Pose> truth = poseAt(input.truth, frame->stamp_s, kMaxTruthGap_s);
       if (truth) judge.add(frame->stamp_s, tracked, *truth);
     }
     return judge.outcome();

@@ -154,7 +154,7 @@ void overVoxelSize(ComputeContext& compute, const GrowthOptions& options) {
   report(curve, options.output);
 }
 
-void run(const GrowthOptions& options) {
+void measureGrowth(const GrowthOptions& options) {
   std::filesystem::create_directories(options.output);
   ComputeContext compute(options.device);
   std::printf("%s", growthTableHead().c_str());
@@ -188,7 +188,7 @@ void addGrowthBenchmark(CLI::App& app, GrowthOptions& options) {
   command->add_option("--voxel-sizes", options.voxels_mm, "in mm")
       ->check(CLI::Range(2.0, 100.0))
       ->capture_default_str();
-  command->callback([&options] { run(options); });
+  command->callback([&options] { measureGrowth(options); });
 }
 
 }  // namespace depth_fusion

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLinear = 1.05;  // an exponent that noise may give a line
 
-PlotLine lineOf(const GrowthCurve& curve, size_t stage) {
+PlotLine growthLine(const GrowthCurve& curve, size_t stage) {
   PlotLine line{growthStages()[stage].name, {}};
   for (const GrowthSample& sample : curve.samples)
     line.points.emplace_back(curve.x(sample), sample.stages_ms[stage]);
@@ -77,7 +77,8 @@ void report(const GrowthCurve& curve, const std::string& folder) {
   for (const GrowthSample& sample : curve.samples) table += growthTableRow(sample);
   writeText(path + ".csv", table);
   LinePlot plot{curve.title, curve.x_label, "median time a frame [ms]", {}, curve.logarithmic};
-  for (size_t stage = 0; stage < growthStages().size(); ++stage) plot.lines.push_back(lineOf(curve, stage));
+  for (size_t stage = 0; stage < growthStages().size(); ++stage)
+    plot.lines.push_back(growthLine(curve, stage));
   writePicture(path + ".png", draw(plot));
   if (curve.samples.size() > 1) printExponents(curve, plot.lines);
 }

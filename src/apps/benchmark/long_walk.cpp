@@ -18,7 +18,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr char kTableHead[] =
+constexpr char kWalkTableHead[] =
     "frames,way [m],submaps,blocks,blocks in the pool,in memory [MiB],in the store [MiB],RSS [MiB],"
     "frame median [ms],frame p99 [ms],points left out\n";
 
@@ -46,7 +46,7 @@ class LongWalk {
   }
 
   void run() {
-    std::string table = kTableHead;
+    std::string table = kWalkTableHead;
     const int rows = std::min(options_.frames, 100);
     for (int frame = 0; frame < options_.frames; ++frame) {
       step();

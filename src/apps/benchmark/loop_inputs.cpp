@@ -17,7 +17,7 @@ struct Spacing {
   double m, rad;
 };
 constexpr Spacing kOfAWalk{0.3, 0.3}, kOfATable{0.05, 0.1}, kEveryFrame{0.0, 0.0};  // of keyframes
-constexpr double kMaxGap_s = 0.05;
+constexpr double kMaxPoseGap_s = 0.05;
 constexpr int kViewWidth_px = 320;
 
 // Makes keyframes of the frames that are far enough from the one before.
@@ -56,13 +56,13 @@ class KeyframeMaker {
   double way_m_ = 0.0;
 };
 
-LoopInput recorded(const std::string& name, const std::string& folder, const Spacing& spacing,
-                   const RecordingOptions& recording_options) {
+LoopInput recordedLoops(const std::string& name, const std::string& folder, const Spacing& spacing,
+                        const RecordingOptions& recording_options) {
   const std::unique_ptr<Recording> recording = openFolder(folder, recording_options);
   const Trajectory truth = readPoses(folder);
   KeyframeMaker maker(spacing);
   while (std::optional<RgbdFrame> frame = recording->next()) {
-    const std::optional<Pose> T_W_D = poseAt(truth, frame->stamp_s, kMaxGap_s);
+    const std::optional<Pose> T_W_D = poseAt(truth, frame->stamp_s, kMaxPoseGap_s);
     if (T_W_D) maker.add(*frame, *T_W_D);
   }
   return {name, std::move(maker.keyframes)};
@@ -73,12 +73,12 @@ LoopInput ofApt0(const std::string& folder) {
   RecordingOptions options;
   options.intrinsics = CameraIntrinsics{640, 480, 582.871, 582.871, 320.0, 240.0};
   options.depth_unit_m = 0.001;
-  LoopInput input = recorded("apt0_keyframes", folder, kEveryFrame, options);
+  LoopInput input = recordedLoops("apt0_keyframes", folder, kEveryFrame, options);
   input.wrong_m = 0.15;
   return input;
 }
 
-LoopInput simulated(const std::string& scene, const std::string& walk, double duration_s) {
+LoopInput simulatedLoops(const std::string& scene, const std::string& walk, double duration_s) {
   SimulationOptions options;
   options.scene = scene;
   options.walk = walk;
@@ -101,11 +101,11 @@ std::vector<Source> sources(const LoopsOptions& options) {
   const std::string data = dataFolder(options.data);
   const std::string apt0 = data + "/apt0_keyframes", redkitchen = data + "/redkitchen";
   return {{"apt0_keyframes", apt0, [=] { return ofApt0(apt0); }},
-          {"redkitchen", redkitchen, [=] { return recorded("redkitchen", redkitchen, kOfATable, {}); }},
-          {"building_loop", "", [] { return simulated("building", "loop", 620.0); }},
-          {"building_laps", "", [] { return simulated("building", "laps", 470.0); }},
-          {"repeated_corridor", "", [] { return simulated("repeated_corridor", "", 125.0); }},
-          {"alike", "", [] { return simulated("alike", "", 60.0); }}};
+          {"redkitchen", redkitchen, [=] { return recordedLoops("redkitchen", redkitchen, kOfATable, {}); }},
+          {"building_loop", "", [] { return simulatedLoops("building", "loop", 620.0); }},
+          {"building_laps", "", [] { return simulatedLoops("building", "laps", 470.0); }},
+          {"repeated_corridor", "", [] { return simulatedLoops("repeated_corridor", "", 125.0); }},
+          {"alike", "", [] { return simulatedLoops("alike", "", 60.0); }}};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr int kRoomFrames = 200;
+constexpr int kNoisyFrames = 200;
 constexpr float kFarVoxel_m = 0.005f;
 
 struct NoiseRun {
@@ -113,7 +113,7 @@ std::vector<NoiseRun> roomRuns(const TrackingBenchmark& options) {
   static const SimulatedScene scene = makeScene("large_room");
   SimulationOptions simulation;
   simulation.scene = "large_room";
-  simulation.frames = kRoomFrames;
+  simulation.frames = kNoisyFrames;
   simulation.noise = false;
   const SimulatedRecording recording(simulation);
   NoiseRun run;

@@ -12,7 +12,7 @@ namespace depth_fusion {
 namespace {
 
 constexpr int kViews = 5, kRepetitions = 3;
-constexpr char kTableHead[] =
+constexpr char kRendererTableHead[] =
     "input,voxels per axis,N,M,voxel [mm],blocks,ray casting [ms],marching cubes [ms]\n";
 
 struct Comparison {
@@ -52,7 +52,7 @@ Comparison compare(ComputeContext& compute, PipelineParameters parameters, const
           stageMedian_ms(triangle_times, "view")};
 }
 
-std::string tableRow(const std::string& input, const Comparison& comparison) {
+std::string rendererRow(const std::string& input, const Comparison& comparison) {
   const int n = comparison.map.blocks_per_axis, m = comparison.map.block_size;
   char row[200];
   std::snprintf(row, sizeof(row), "%s,%d,%d,%d,%.3f,%zu,%.2f,%.2f\n", input.c_str(), n * m, n, m,
@@ -72,11 +72,11 @@ void addLines(LinePlot& plot, const std::string& input, const std::vector<Compar
   plot.lines.push_back(triangles);
 }
 
-void run(const ResolutionOptions& options) {
+void compareRenderers(const ResolutionOptions& options) {
   std::filesystem::create_directories(options.output);
   ComputeContext compute(options.device);
-  std::string table = kTableHead;
-  std::printf("%s", kTableHead);
+  std::string table = kRendererTableHead;
+  std::printf("%s", kRendererTableHead);
   char title[200];
   std::snprintf(title, sizeof(title), "ray casting and marching cubes, 640x480, box of %.3g m",
                 options.box_m);
@@ -86,8 +86,8 @@ void run(const ResolutionOptions& options) {
     std::vector<Comparison> comparisons;
     for (const int voxels : options.voxels_per_axis) {
       comparisons.push_back(compare(compute, input.parameters, mapInBox(options, voxels), frames));
-      table += tableRow(input.name, comparisons.back());
-      std::printf("%s", tableRow(input.name, comparisons.back()).c_str());
+      table += rendererRow(input.name, comparisons.back());
+      std::printf("%s", rendererRow(input.name, comparisons.back()).c_str());
       std::fflush(stdout);
     }
     addLines(plot, input.name, comparisons);
@@ -105,7 +105,7 @@ void addRenderersBenchmark(CLI::App& app, ResolutionOptions& options) {
   CLI::App* command =
       app.add_subcommand("renderers", "ray casting and marching cubes by voxel resolution, in one box");
   addResolutionOptions(*command, options);
-  command->callback([&options] { run(options); });
+  command->callback([&options] { compareRenderers(options); });
 }
 
 }  // namespace depth_fusion

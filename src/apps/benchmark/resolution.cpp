@@ -33,8 +33,8 @@ StageTimes timesOf(const StageTimers& timers) {
           stageMedian_ms(timers, "tsdf_fusion/integrate"), stageMedian_ms(timers, "frame")};
 }
 
-Outcome runPipeline(ComputeContext& compute, PipelineParameters parameters, const MapParameters& map,
-                    const std::vector<RgbdFrame>& frames) {
+Outcome runAt(ComputeContext& compute, PipelineParameters parameters, const MapParameters& map,
+              const std::vector<RgbdFrame>& frames) {
   parameters.map = map;
   ReconstructionPipeline pipeline(compute, parameters, frames.front().intrinsics);
   Outcome outcome;
@@ -76,7 +76,7 @@ void writePlot(const std::string& path, const std::string& title, const std::vec
   writePicture(path, draw(plot));
 }
 
-void run(const ResolutionOptions& options) {
+void compareResolutions(const ResolutionOptions& options) {
   std::filesystem::create_directories(options.output);
   ComputeContext compute(options.device);
   std::string table = kTableHead;
@@ -85,7 +85,7 @@ void run(const ResolutionOptions& options) {
     const std::vector<RgbdFrame> frames = firstFrames(input, options.frames);
     std::vector<Outcome> outcomes;
     for (const int voxels : options.voxels_per_axis) {
-      outcomes.push_back(runPipeline(compute, input.parameters, mapInBox(options, voxels), frames));
+      outcomes.push_back(runAt(compute, input.parameters, mapInBox(options, voxels), frames));
       table += tableRow(input.name, outcomes.back());
       std::printf("%s", tableRow(input.name, outcomes.back()).c_str());
       std::fflush(stdout);
@@ -106,7 +106,7 @@ void addResolutionBenchmark(CLI::App& app, ResolutionOptions& options) {
   CLI::App* command = app.add_subcommand(
       "resolution", "time of model view, ICP and integration by voxel resolution, in one box");
   addResolutionOptions(*command, options);
-  command->callback([&options] { run(options); });
+  command->callback([&options] { compareResolutions(options); });
 }
 
 }  // namespace depth_fusion

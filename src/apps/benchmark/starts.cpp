@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kWrong_rad = 3.0 * CV_PI / 180.0;
 constexpr double kMaxGap_s = 0.05;
-constexpr size_t kFrames = 120;      // of a start, at most
+constexpr size_t kMostFrames = 120;  // of a start, at most
 constexpr size_t kLostForGood = 15;  // lost frames at a start's end
 
 struct Start {
@@ -106,13 +106,13 @@ std::string nameOf(const TrackingInput& input, const Start& start) {
          (start.texture ? "" : ", without texture");
 }
 
-StartOutcome run(ComputeContext& compute, const TrackingInput& input, const std::vector<RgbdFrame>& frames,
-                 const Start& start, std::ofstream& csv) {
+StartOutcome trackFrom(ComputeContext& compute, const TrackingInput& input,
+                       const std::vector<RgbdFrame>& frames, const Start& start, std::ofstream& csv) {
   PipelineParameters parameters = input.parameters;
   parameters.texture_odometry.enabled = start.texture;
   ReconstructionPipeline pipeline(compute, parameters, frames.front().intrinsics);
   StartJudge judge(input, nameOf(input, start), csv);
-  for (size_t i = start.first; i < frames.size() && judge.outcome().frames < kFrames; i += start.step)
+  for (size_t i = start.first; i < frames.size() && judge.outcome().frames < kMostFrames; i += start.step)
     judge.add(frames[i].stamp_s, pipeline.processFrame(frames[i]).tracking);
   return judge.outcome();
 }
@@ -174,7 +174,7 @@ void runStarts(const TrackingBenchmark& options) {
     StartOutcome sum;
     size_t lost_for_good = 0, wrong = 0;
     for (const Start& start : starts) {
-      const StartOutcome outcome = run(compute, inputs[i], frames, start, csv);
+      const StartOutcome outcome = trackFrom(compute, inputs[i], frames, start, csv);
       sum.frames += outcome.frames;
       sum.lost += outcome.lost;
       lost_for_good += outcome.isLostForGood();

@@ -44,7 +44,7 @@ const std::vector<Variant> kGates = {
     {"no relocalisation gate", {{"relocalisation/min_inlier_fraction", "0"}}},
     {"no keyframes", {{"relocalisation/max_keyframes", "0"}}}};
 
-struct Outcome {
+struct VariantOutcome {
   size_t frames = 0, lost = 0, degenerate = 0;
   size_t wrong = 0;  // tracked, but farther than kWrong_m from the truth
   TrajectoryError error;
@@ -61,7 +61,7 @@ double pathLength(const std::vector<PosePair>& pairs) {
   return length_m;
 }
 
-void measure(const Trajectory& trajectory, const Trajectory& truth, Outcome& outcome) {
+void measureErrors(const Trajectory& trajectory, const Trajectory& truth, VariantOutcome& outcome) {
   if (trajectory.size() < 3) return;
   outcome.error = compareTrajectories(trajectory, truth);
   const std::vector<PosePair>& pairs = outcome.error.pairs;
@@ -75,13 +75,13 @@ void measure(const Trajectory& trajectory, const Trajectory& truth, Outcome& out
   }
 }
 
-Outcome runVariant(ComputeContext& compute, const TrackingInput& input, const std::vector<RgbdFrame>& frames,
-                   const Variant& variant, bool with_mesh) {
+VariantOutcome runVariant(ComputeContext& compute, const TrackingInput& input,
+                          const std::vector<RgbdFrame>& frames, const Variant& variant, bool with_mesh) {
   PipelineParameters parameters = input.parameters;
   for (const auto& [name, value] : variant.parameters) setParameter(parameters.table(), name, value);
   parameters.map.color = with_mesh;
   ReconstructionPipeline pipeline(compute, parameters, frames.front().intrinsics);
-  Outcome outcome;
+  VariantOutcome outcome;
   Trajectory trajectory;
   for (const RgbdFrame& frame : frames) {
     const TrackingResult tracking = pipeline.processFrame(frame).tracking;
@@ -93,7 +93,7 @@ Outcome runVariant(ComputeContext& compute, const TrackingInput& input, const st
     if (tracking.status == TrackingStatus::kDegenerate) ++outcome.degenerate;
     trajectory.push_back({frame.stamp_s, tracking.T_W_D});
   }
-  measure(trajectory, input.truth, outcome);
+  measureErrors(trajectory, input.truth, outcome);
   if (with_mesh) exportSurfaceMesh(compute, pipeline.map(), outcome.mesh);
   return outcome;
 }
@@ -104,7 +104,7 @@ std::string tableHead() {
          "|---|---|---|---|---|---|---|---|\n";
 }
 
-std::string tableRow(const TrackingInput& input, const Variant& variant, const Outcome& outcome) {
+std::string variantRow(const TrackingInput& input, const Variant& variant, const VariantOutcome& outcome) {
   char row[300];
   std::snprintf(row, sizeof(row), "| %s | %s | %zu | %zu | %zu | %.2f | %.2f (%.2f) | %zu |\n",
                 input.name.c_str(), variant.name.c_str(), outcome.frames, outcome.lost, outcome.degenerate,
@@ -115,7 +115,7 @@ std::string tableRow(const TrackingInput& input, const Variant& variant, const O
 
 // Draws the variants' meshes side by side, all seen from where the last one is seen best.
 void drawMeshes(const std::string& path, const std::vector<Variant>& variants,
-                const std::vector<Outcome>& outcomes) {
+                const std::vector<VariantOutcome>& outcomes) {
   const CameraIntrinsics camera = pictureCamera(640, 480, CV_PI / 3.0);
   if (outcomes.back().mesh.vertices.empty()) return;
   const Pose T_W_C = viewOf(outcomes.back().mesh, camera, viewNames().front());
@@ -138,11 +138,11 @@ void runBenchmark(const TrackingBenchmark& options) {
   std::cout << table << std::flush;
   for (const TrackingInput& input : trackingInputs(options)) {
     const std::vector<RgbdFrame> frames = framesOf(input);
-    std::vector<Outcome> outcomes;
+    std::vector<VariantOutcome> outcomes;
     for (const Variant& variant : variants) {
       outcomes.push_back(runVariant(compute, input, frames, variant, !options.gates));
-      table += tableRow(input, variant, outcomes.back());
-      std::cout << tableRow(input, variant, outcomes.back()) << std::flush;
+      table += variantRow(input, variant, outcomes.back());
+      std::cout << variantRow(input, variant, outcomes.back()) << std::flush;
     }
     if (!options.gates) drawMeshes(options.output + "/" + input.name + ".jpg", variants, outcomes);
   }

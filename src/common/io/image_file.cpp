@@ -66,7 +66,7 @@ cv::Mat decode(const unsigned char* data, size_t size, int flags, const std::str
   return image;
 }
 
-Bytes readBytes(const std::string& path) {
+Bytes bytesOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   check(file.good(), path + ": cannot be read: " + std::strerror(errno));
   Bytes bytes(static_cast<size_t>(std::max<std::streamoff>(file.tellg(), 0)));
@@ -91,7 +91,7 @@ cv::Mat decodeColorImage(const unsigned char* data, size_t size, const std::stri
 }
 
 cv::Mat readDepthImage(const std::string& path) {
-  const Bytes bytes = readBytes(path);
+  const Bytes bytes = bytesOf(path);
   cv::Mat depth = decodeImage(bytes.data(), bytes.size(), path);
   check(depth.type() == CV_16UC1, path + ": a depth image has one channel of 16 bits; this one has " +
                                       std::to_string(depth.channels()) + " of " +
@@ -100,7 +100,7 @@ cv::Mat readDepthImage(const std::string& path) {
 }
 
 cv::Mat readColorImage(const std::string& path) {
-  const Bytes bytes = readBytes(path);
+  const Bytes bytes = bytesOf(path);
   return decodeColorImage(bytes.data(), bytes.size(), path);
 }
 

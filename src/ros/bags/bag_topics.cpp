@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <sstream>
+
+#include "common/lowered.h"
 
 namespace depth_fusion {
 namespace {
@@ -11,12 +12,6 @@ namespace {
 constexpr char kCompressedDepthName[] = "compressedDepth";
 constexpr char kCompressedName[] = "compressed";
 constexpr int kUnranked = 99;
-
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
 
 // Whatever the case of its letters.
 bool contains(const std::string& text, const std::string& part) {

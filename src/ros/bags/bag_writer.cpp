@@ -22,7 +22,7 @@ constexpr char kWorldFrame[] = "world";
 constexpr char kOdometryFrame[] = "odom";
 constexpr char kBaseFrame[] = "base_link";
 constexpr char kImuFrame[] = "imu_link";
-constexpr double kMillimetre_m = 0.001;
+constexpr double kStoredUnit_m = 0.001;
 
 tf2_msgs::TFMessage transform(const ros::Time& stamp, const char* parent, const char* child,
                               const Pose& pose) {
@@ -48,7 +48,7 @@ class BagWriter : public RecordingWriter {
   void write(const RgbdFrame& frame) override {
     check(bag_ != nullptr, path_ + ": the bag is closed already");
     const std_msgs::Header header = makeHeader(toRosTime(frame.stamp_s), kCameraFrame);
-    const cv::Mat depth = convertDepthUnit(frame.depth, frame.depth_unit_m, kMillimetre_m);
+    const cv::Mat depth = convertDepthUnit(frame.depth, frame.depth_unit_m, kStoredUnit_m);
     const sensor_msgs::CameraInfo info = makeCameraInfo(header, frame.intrinsics);
     orError([&] {
       if (frame.T_W_D) writeTruth(header.stamp, *frame.T_W_D, frame.readings.T_B_D.has_value());

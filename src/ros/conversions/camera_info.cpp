@@ -1,10 +1,10 @@
 #include "ros/conversions/camera_info.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <set>
 
+#include "common/lowered.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/geometry/camera_check.h"
 
@@ -58,12 +58,6 @@ CameraIntrinsics through(const SensorWindow& window, const CameraIntrinsics& sen
           sensor.fy / y,
           (sensor.cx - window.region.x) / x,
           (sensor.cy - window.region.y) / y};
-}
-
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
 }
 
 // Some word of the name, as in image_rect_color, begins so.

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cctype>
 #include <opencv2/imgproc.hpp>
 
 #include "common/io/image_file.h"
+#include "common/lowered.h"
 #include "depth_fusion/common/error.h"
 #include "ros/conversions/image_conversions.h"
 #include "ros/conversions/message_pixels.h"
@@ -48,9 +48,8 @@ constexpr ColorEncoding kColorEncodings[] = {{"rgb8", CV_8UC3, cv::COLOR_RGB2BGR
                                              {"yuv422_yuy2", CV_8UC2, cv::COLOR_YUV2BGR_YUY2},
                                              {"yuyv", CV_8UC2, cv::COLOR_YUV2BGR_YUY2}};
 
-const ColorEncoding* findEncoding(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+const ColorEncoding* findEncoding(const std::string& any_case) {
+  const std::string name = lowered(any_case);
   const auto found = std::find_if(std::begin(kColorEncodings), std::end(kColorEncodings),
                                   [&](const ColorEncoding& e) { return name == e.name; });
   return found == std::end(kColorEncodings) ? nullptr : found;

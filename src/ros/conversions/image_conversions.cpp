@@ -1,12 +1,12 @@
 #include "ros/conversions/image_conversions.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 
 #include "common/io/image_file.h"
+#include "common/lowered.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/common/percentile.h"
 #include "ros/conversions/message_pixels.h"
@@ -53,12 +53,6 @@ cv::Mat depthFromInverse(const cv::Mat& quantised, const CompressedDepthHeader& 
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
-}
-
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
 }
 
 // Depth of no room if it is in metres, nor of any in millimetres if it is less.

@@ -5,7 +5,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kSilence_s = 1.0;
+constexpr double kGone_s = 1.0;
 // Larger steps are none of messages that were dropped, but of a publisher that numbers by rules of its own.
 constexpr uint32_t kMaxMissed = 1000;
 // The majority of this many steps decides what is usual.
@@ -17,7 +17,7 @@ PublisherWatch::Verdict PublisherWatch::judge(const std::string& publisher, uint
                                               const ros::WallTime& now) {
   const bool is_first = publisher_.empty();
   const bool is_same = publisher == publisher_;
-  if (!is_first && !is_same && publishers > 1 && (now - last_).toSec() < kSilence_s) {
+  if (!is_first && !is_same && publishers > 1 && (now - last_).toSec() < kGone_s) {
     other_ = publisher;
     return {};
   }

@@ -7,7 +7,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr uint32_t kTopicQueue = 30;
+constexpr uint32_t kInfoQueue = 30;
 constexpr size_t kInfosKept = 30;
 
 // The colour camera's frame if it is not the depth camera's, else an empty name.
@@ -32,7 +32,7 @@ SensorCameras::~SensorCameras() {
 
 ros::Subscriber SensorCameras::subscribe(const std::string& name, Infos& infos) {
   return handle_.subscribe<sensor_msgs::CameraInfo>(
-      name, kTopicQueue, [this, &infos](const sensor_msgs::CameraInfoConstPtr& message) {
+      name, kInfoQueue, [this, &infos](const sensor_msgs::CameraInfoConstPtr& message) {
         const std::lock_guard<std::mutex> lock(mutex_);
         infos.push_back(message);
         if (infos.size() > kInfosKept) infos.pop_front();

@@ -7,7 +7,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kLookPeriod_s = 1.0;
+constexpr double kFresh_s = 1.0;
 constexpr double kSilence_s = 2.0;    // without a depth image, before that is a problem
 constexpr double kWarnAfter_s = 3.0;  // and before the console says so
 constexpr double kStarting_s = 10.0;  // the same where there are no images at all: a driver may be starting
@@ -24,7 +24,7 @@ void TopicWatch::noteDepth() {
 void TopicWatch::look() {
   const std::string of_publishers = publishers();
   if (said_of_publishers_.isNew(of_publishers)) ROS_WARN_STREAM(of_publishers);
-  if (silent_s() < kLookPeriod_s && color_.isPublished() && cameras_.hasDepth()) return;
+  if (silent_s() < kFresh_s && color_.isPublished() && cameras_.hasDepth()) return;
   const PublishedTopics published;
   depth_.lookAround(published);
   color_.lookAround(published);

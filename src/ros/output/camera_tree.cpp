@@ -11,7 +11,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr uint32_t kQueue = 100;
+constexpr uint32_t kTfQueue = 100;
 // A robot's frames come on two topics and from several nodes.
 constexpr double kSettled_s = 1.0;
 constexpr double kMaxSettling_s = 3.0;
@@ -22,7 +22,7 @@ constexpr double kPoll_s = 0.002;
 CameraTree::CameraTree(ros::NodeHandle handle, const std::string& map_frame) : map_frame_(map_frame) {
   const auto subscribe = [&](const std::string& topic, bool is_static) {
     return handle.subscribe<tf2_msgs::TFMessage>(
-        topic, kQueue,
+        topic, kTfQueue,
         [this, is_static](const tf2_msgs::TFMessage::ConstPtr& message) { receive(*message, is_static); });
   };
   subscriber_ = subscribe("/tf", false);

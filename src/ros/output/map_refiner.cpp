@@ -18,7 +18,7 @@ namespace depth_fusion {
 namespace {
 
 constexpr double kLook_s = 1.0;
-constexpr uint32_t kQueue = 100;
+constexpr uint32_t kCorrectionQueue = 100;
 constexpr double kStill_m = 1e-3;
 
 std::string inMillimetres(double length_m) { return std::to_string(std::lround(1000.0 * length_m)) + " mm"; }
@@ -68,7 +68,7 @@ MapRefiner::MapRefiner(std::shared_ptr<SharedMap> map, FrameMapper& mapper,
       announce_(std::move(announce)),
       loops_parameters_(mapper.parameters().loops),
       queue_(map_->compute->anotherQueue()),
-      publisher_(handle.advertise<LoopStatus>("loops", kQueue)) {
+      publisher_(handle.advertise<LoopStatus>("loops", kCorrectionQueue)) {
   handle.setCallbackQueue(&keeper_.queue());
   server_ = callbacks_.advertiseService<RefineMap::Request, RefineMap::Response>(
       handle, "refine_map", [this](auto& request, auto& response) { return serve(request, response); });

@@ -11,7 +11,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr uint32_t kQueue = 10;
+constexpr uint32_t kOdometryQueue = 10;
 
 }  // namespace
 
@@ -20,9 +20,9 @@ OdometryPublisher::OdometryPublisher(ros::NodeHandle private_handle, const PoseP
     : map_frame_(parameters.map_frame),
       visual_odom_frame_(parameters.visual_odom_frame),
       transforms_(transforms),
-      odometry_publisher_(private_handle.advertise<nav_msgs::Odometry>("odometry", kQueue)),
+      odometry_publisher_(private_handle.advertise<nav_msgs::Odometry>("odometry", kOdometryQueue)),
       base_pose_publisher_(
-          private_handle.advertise<geometry_msgs::PoseWithCovarianceStamped>("base_pose", kQueue)) {}
+          private_handle.advertise<geometry_msgs::PoseWithCovarianceStamped>("base_pose", kOdometryQueue)) {}
 
 void OdometryPublisher::publish(const std_msgs::Header& camera, const TrackingResult& tracked) {
   const TransformSender::Body body = transforms_.bodyOf(camera.frame_id);

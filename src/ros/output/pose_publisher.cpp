@@ -10,7 +10,7 @@
 namespace depth_fusion {
 namespace {
 
-constexpr uint32_t kQueue = 10;
+constexpr uint32_t kPoseQueue = 10;
 constexpr double kPathStep_m = 0.02;
 constexpr double kPathStep_rad = 0.05;
 constexpr size_t kMaxPath = 5000;
@@ -25,7 +25,7 @@ PosePublisher::PosePublisher(ros::NodeHandle handle, ros::NodeHandle private_han
       transforms_(handle, parameters),
       odometry_(private_handle, parameters, transforms_),
       viewer_aids_(private_handle, parameters.map_frame, parameters.view_frame) {
-  pose_publisher_ = private_handle.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
+  pose_publisher_ = private_handle.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kPoseQueue);
   path_publisher_ = private_handle.advertise<nav_msgs::Path>(
       "path", 1, [this](const ros::SingleSubscriberPublisher& viewer) {
         const std::lock_guard<std::mutex> lock(path_mutex_);

@@ -10,21 +10,21 @@
 namespace depth_fusion {
 namespace {
 
-constexpr uint32_t kQueue = 1000;
-constexpr size_t kMaxWaiting = 4000;  // messages, of 10 s of a fast sensor
-constexpr double kSayAgain_s = 60.0;
+constexpr uint32_t kSensorQueue = 1000;
+constexpr size_t kMaxReadings = 4000;  // messages, of 10 s of a fast sensor
+constexpr double kRemindAfter_s = 60.0;
 
 }  // namespace
 
 RobotSensors::RobotSensors(ros::NodeHandle handle, const TransformSender& transforms)
     : transforms_(transforms),
       subscriber_(handle.subscribe<sensor_msgs::Imu>(
-          "imu", kQueue, [this](const sensor_msgs::Imu::ConstPtr& message) { receive(message); })) {}
+          "imu", kSensorQueue, [this](const sensor_msgs::Imu::ConstPtr& message) { receive(message); })) {}
 
 void RobotSensors::receive(const sensor_msgs::Imu::ConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   messages_.push_back(message);
-  if (messages_.size() > kMaxWaiting) messages_.pop_front();
+  if (messages_.size() > kMaxReadings) messages_.pop_front();
 }
 
 MotionReadings RobotSensors::until(const std_msgs::Header& camera, double stamp_s) {
@@ -40,7 +40,7 @@ MotionReadings RobotSensors::until(const std_msgs::Header& camera, double stamp_
     const sensor_msgs::Imu& message = *messages_.front();
     const auto T_I_D = transforms_.cameraIn(withoutSlash(message.header.frame_id), camera.frame_id);
     if (!T_I_D) {
-      ROS_WARN_THROTTLE(kSayAgain_s,
+      ROS_WARN_THROTTLE(kRemindAfter_s,
                         "the imu is in the frame '%s', which tf does not connect to '%s'; it is not used",
                         message.header.frame_id.c_str(), camera.frame_id.c_str());
       continue;

@@ -8,7 +8,7 @@ namespace depth_fusion {
 namespace {
 
 // A viewer that does not keep up costs so many messages of memory, and gets the others again when it does.
-constexpr uint32_t kQueue = 2;
+constexpr uint32_t kSurfaceQueue = 2;
 
 // Whether a period is over; if so, the next one begins.
 bool isDue(ros::WallTime& last, double rate_hz) {
@@ -20,10 +20,11 @@ bool isDue(ros::WallTime& last, double rate_hz) {
 
 }  // namespace
 
-SurfacePublisher::SurfacePublisher(ros::NodeHandle& handle) : traffic_(kQueue) {
+SurfacePublisher::SurfacePublisher(ros::NodeHandle& handle) : traffic_(kSurfaceQueue) {
   // roscpp tells of a process's first subscriber to a topic; further ones need refresh_chunks.
   const auto note_viewer = [this](const ros::SingleSubscriberPublisher&) { has_late_viewer_ = true; };
-  marker_publisher_ = handle.advertise<visualization_msgs::MarkerArray>("markers", kQueue, note_viewer);
+  marker_publisher_ =
+      handle.advertise<visualization_msgs::MarkerArray>("markers", kSurfaceQueue, note_viewer);
   point_publisher_ = handle.advertise<sensor_msgs::PointCloud2>("points", 1, note_viewer);
   block_publisher_ = handle.advertise<visualization_msgs::Marker>(
       "blocks", 1, [this](const ros::SingleSubscriberPublisher&) { has_late_block_viewer_ = true; });

@@ -9,18 +9,18 @@
 namespace depth_fusion {
 namespace {
 
-constexpr double kMaxPoseGap_s = 0.05;
+constexpr double kMaxTruthGap_s = 0.05;
 constexpr double kTrackedSigma_m = 0.005;  // of a pose that is tracked over a distance
 constexpr double kMinDistance_m = 0.2;
-constexpr int kSegments = 10;
+constexpr int kScaleSegments = 10;
 constexpr size_t kMinPoses = 50;
 
 using Points = Eigen::Matrix3Xd;
 
 // Returns the columns without those of one of the segments.
 Points without(const Points& points, int segment) {
-  const Eigen::Index begin = segment * points.cols() / kSegments,
-                     end = (segment + 1) * points.cols() / kSegments;
+  const Eigen::Index begin = segment * points.cols() / kScaleSegments,
+                     end = (segment + 1) * points.cols() / kScaleSegments;
   Points rest(3, points.cols() - (end - begin));
   rest << points.leftCols(begin), points.rightCols(points.cols() - end);
   return rest;
@@ -36,7 +36,7 @@ Estimate scaleAgainst(const Trajectory& tracked, const Trajectory& truth) {
   Points from(3, tracked.size()), to(3, tracked.size());
   Eigen::Index count = 0;
   for (const StampedPose& pose : tracked) {
-    const auto true_pose = poseAt(truth, pose.stamp_s, kMaxPoseGap_s);
+    const auto true_pose = poseAt(truth, pose.stamp_s, kMaxTruthGap_s);
     if (!true_pose) continue;
     from.col(count) = pose.T_W_D.translation();
     to.col(count++) = true_pose->translation();
@@ -46,9 +46,9 @@ Estimate scaleAgainst(const Trajectory& tracked, const Trajectory& truth) {
   from.conservativeResize(3, count);
   to.conservativeResize(3, count);
   Estimate scale{scaleOf(from, to), 0.0};
-  for (int i = 0; i < kSegments; ++i) {
+  for (int i = 0; i < kScaleSegments; ++i) {
     const double left_out = scaleOf(without(from, i), without(to, i)) - scale.value;
-    scale.sigma += (kSegments - 1.0) / kSegments * left_out * left_out;
+    scale.sigma += (kScaleSegments - 1.0) / kScaleSegments * left_out * left_out;
   }
   scale.sigma = std::sqrt(scale.sigma);
   return scale;

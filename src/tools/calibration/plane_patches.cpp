@@ -15,7 +15,7 @@ constexpr int kColumns = 80;
 constexpr int kMaxPlanes = 3;
 constexpr int kHypotheses = 60;
 constexpr int kFits = 3;
-constexpr double kMinNormalCosine = 0.9;
+constexpr double kMinPlaneCosine = 0.9;
 constexpr size_t kMinPoints = 400;
 constexpr double kMinExtent = 0.3;  // of the image's width or height
 
@@ -33,7 +33,7 @@ double residualOf(const ViewPoint& point, const Plane& plane) {
 
 bool lies(const ViewPoint& point, const Plane& plane, double cutoff_sigmas) {
   return std::abs(residualOf(point, plane)) < cutoff_sigmas * inverseSigma(point) &&
-         -plane.normalized().dot(point.normal_D) > kMinNormalCosine;
+         -plane.normalized().dot(point.normal_D) > kMinPlaneCosine;
 }
 
 Plane planeThrough(const ViewPoint& point) { return point.normal_D / point.normal_D.dot(point.p_D); }

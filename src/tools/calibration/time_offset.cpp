@@ -22,7 +22,7 @@ constexpr double kCutoff_sigmas = 4.0;
 constexpr double kSigmasPerMedian = 0.65;  // of the length of three normal components
 constexpr size_t kMinMotions = 30;
 constexpr int kSteps = 15;
-constexpr int kSegments = 10;
+constexpr int kOffsetSegments = 10;
 
 // Holds by how much a motion differs, and how the trajectory's motion would change with the offset.
 struct Difference {
@@ -61,7 +61,7 @@ struct Step {
 };
 
 Step stepOf(const std::vector<Difference>& differences) {
-  std::array<double, kSegments> pulls{};
+  std::array<double, kOffsetSegments> pulls{};
   double curvature = 0.0, noise = 0.0;
   const double sigmas[] = {sigmaOf(differences, 0), sigmaOf(differences, 3)};
   for (size_t i = 0; i < differences.size(); ++i) {
@@ -69,7 +69,7 @@ Step stepOf(const std::vector<Difference>& differences) {
       const Eigen::Vector3d residual = differences[i].residual.segment<3>(3 * part) / sigmas[part];
       const Eigen::Vector3d by_offset = differences[i].by_offset.segment<3>(3 * part) / sigmas[part];
       const double weight = tukeyWeight(residual.norm(), kCutoff_sigmas * std::sqrt(3.0));
-      pulls[i * kSegments / differences.size()] += weight * residual.dot(by_offset);
+      pulls[i * kOffsetSegments / differences.size()] += weight * residual.dot(by_offset);
       curvature += weight * by_offset.squaredNorm();
       noise += weight * kNoiseCurvature;
     }
@@ -78,8 +78,10 @@ Step stepOf(const std::vector<Difference>& differences) {
   step.speed_changes = curvature > kMinCurvature * noise;
   curvature = std::max(curvature - noise, 0.5 * curvature);
   for (const double pull : pulls) step.offset_s += pull / curvature;
-  for (const double pull : pulls) step.sigma_s += std::pow(pull / curvature - step.offset_s / kSegments, 2);
-  step.sigma_s = std::hypot(std::sqrt(step.sigma_s * kSegments / (kSegments - 1.0)), kMethodSigma_s);
+  for (const double pull : pulls)
+    step.sigma_s += std::pow(pull / curvature - step.offset_s / kOffsetSegments, 2);
+  step.sigma_s =
+      std::hypot(std::sqrt(step.sigma_s * kOffsetSegments / (kOffsetSegments - 1.0)), kMethodSigma_s);
   return step;
 }
 

@@ -3,12 +3,11 @@
 #include <cstdio>
 
 #include "depth_fusion/common/error.h"
+#include "depth_fusion/geometry/angles.h"
 #include "depth_fusion/recording/trajectory_file.h"
 
 namespace depth_fusion {
 namespace {
-
-constexpr double kDegPerRad = 57.29577951308232;
 
 std::vector<PosePair> pairsOf(const Trajectory& estimate, const Trajectory& truth, double max_gap_s) {
   std::vector<PosePair> pairs;

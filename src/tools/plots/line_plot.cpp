@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "depth_fusion/common/error.h"
+#include "tools/plots/drawing.h"
 #include "tools/plots/nice_step.h"
 
 namespace depth_fusion {
@@ -16,19 +17,10 @@ namespace {
 const cv::Rect kFrame(70, 50, 640, 360);
 const cv::Size kCanvas(740, 470);
 constexpr int kLegend_px = 170;
-const cv::Scalar kInk(50, 50, 50);
-const cv::Scalar kGrid(228, 228, 228);
 const cv::Scalar kColors[] = {{180, 120, 30}, {40, 120, 240}, {60, 160, 50},
                               {150, 60, 150}, {160, 160, 40}, {50, 50, 50}};
 
-void writeCentred(cv::Mat& canvas, const std::string& text, const cv::Point& centre) {
-  int baseline = 0;
-  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.45, 1, &baseline);
-  cv::putText(canvas, text, centre + cv::Point(-size.width / 2, size.height / 2), cv::FONT_HERSHEY_SIMPLEX,
-              0.45, kInk, 1, cv::LINE_AA);
-}
-
-std::string number(double value) {
+std::string shortNumber(double value) {
   char text[32];
   std::snprintf(text, sizeof(text), "%.4g", value);
   return text;
@@ -86,12 +78,12 @@ void drawAxes(cv::Mat& canvas, const LinePlot& plot, const Axes& axes) {
   for (const double x : axes.x.ticks()) {
     const int column = kFrame.x + static_cast<int>(axes.x.fractionOf(x) * kFrame.width);
     cv::line(canvas, {column, kFrame.y}, {column, kFrame.br().y}, kGrid);
-    writeCentred(canvas, number(x), {column, kFrame.br().y + 16});
+    writeCentred(canvas, shortNumber(x), {column, kFrame.br().y + 16});
   }
   for (const double y : axes.y.ticks()) {
     const int row = kFrame.br().y - static_cast<int>(axes.y.fractionOf(y) * kFrame.height);
     cv::line(canvas, {kFrame.x, row}, {kFrame.br().x, row}, kGrid);
-    writeCentred(canvas, number(y), {kFrame.x - 30, row});
+    writeCentred(canvas, shortNumber(y), {kFrame.x - 30, row});
   }
   cv::rectangle(canvas, kFrame, kInk, 1, cv::LINE_AA);
   writeCentred(canvas, plot.title, {kCanvas.width / 2, 15});

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "depth_fusion/common/error.h"
+#include "tools/plots/drawing.h"
 
 namespace depth_fusion {
 namespace {
@@ -16,14 +17,7 @@ constexpr double kTextSize = 0.42;
 // A bar ends where it is this many times as high as the limit.
 constexpr double kHighest = 1.5;
 
-const cv::Scalar kInk(50, 50, 50), kGrid(228, 228, 228), kFits(180, 120, 30), kOver(40, 40, 210);
-
-void writeCentred(cv::Mat& canvas, const std::string& text, const cv::Point& centre) {
-  int baseline = 0;
-  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kTextSize, 1, &baseline);
-  cv::putText(canvas, text, centre + cv::Point(-size.width / 2, size.height / 2), cv::FONT_HERSHEY_SIMPLEX,
-              kTextSize, kInk, 1, cv::LINE_AA);
-}
+const cv::Scalar kFits(180, 120, 30), kOver(40, 40, 210);
 
 // Writes text that reads upwards and ends at the point.
 void writeUpwards(cv::Mat& canvas, const std::string& text, const cv::Point& end) {
@@ -59,13 +53,13 @@ void drawAxis(cv::Mat& canvas, const ResolutionPlan& plan) {
     const double bytes = 0.25 * quarter * limit;
     const int row = rowOf(bytes, limit);
     cv::line(canvas, {kLeft_px, row}, {canvas.cols - kRight_px, row}, quarter == 4 ? kOver : kGrid);
-    writeCentred(canvas, mebibytes(bytes), {kLeft_px - 28, row});
+    writeCentred(canvas, mebibytes(bytes), {kLeft_px - 28, row}, kTextSize);
   }
   char title[200];
   std::snprintf(title, sizeof(title),
                 "memory of the map, MiB; box of %.3g m, limit %s MiB; voxel size in mm, and N/M",
                 plan.request.box_m, mebibytes(limit).c_str());
-  writeCentred(canvas, title, {canvas.cols / 2, 20});
+  writeCentred(canvas, title, {canvas.cols / 2, 20}, kTextSize);
 }
 
 void drawBar(cv::Mat& canvas, const ResolutionPlan& plan, size_t i) {

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "depth_fusion/common/error.h"
+#include "tools/plots/drawing.h"
 #include "tools/plots/nice_step.h"
 
 namespace depth_fusion {
@@ -17,8 +18,6 @@ constexpr int kHeader_px = 70;
 constexpr int kColorBar_px = 110;
 constexpr int kSubpixelBits = 4;
 
-const cv::Scalar kInk(50, 50, 50);
-const cv::Scalar kGrid(228, 228, 228);
 const cv::Scalar kTruth(170, 170, 170);
 
 struct Range {
@@ -32,12 +31,6 @@ struct View {
 
 void writeText(cv::Mat& canvas, const std::string& text, const cv::Point& left_baseline, double size = 0.45) {
   cv::putText(canvas, text, left_baseline, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
-}
-
-void writeCentred(cv::Mat& canvas, const std::string& text, const cv::Point& centre) {
-  int baseline = 0;
-  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.45, 1, &baseline);
-  writeText(canvas, text, centre + cv::Point(-size.width / 2, size.height / 2));
 }
 
 std::string number(const char* format, double value) {

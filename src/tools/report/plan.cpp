@@ -71,7 +71,8 @@ TrackingStatus stateBetween(const std::vector<RecordedFrame>& frames, size_t& ne
   return worst;
 }
 
-std::string wayOf(const Plan& plan, const Trajectory& trajectory, const std::vector<RecordedFrame>& frames) {
+std::string drawnWay(const Plan& plan, const Trajectory& trajectory,
+                     const std::vector<RecordedFrame>& frames) {
   std::string lines, points;
   const size_t stride = 1 + trajectory.size() / kMostPoints;
   size_t next_frame = 0;
@@ -124,7 +125,7 @@ std::string planOf(const TriangleMesh& mesh, const Trajectory& trajectory, const
   }
   if (!trajectory.empty()) {
     const double depth_m = (plan.T_C_W * trajectory.front().T_W_D.translation()).z();
-    svg += wayOf(plan, trajectory, frames) + scaleBar(plan.camera.fx / depth_m) +
+    svg += drawnWay(plan, trajectory, frames) + scaleBar(plan.camera.fx / depth_m) +
            mark(plan.pixelOf(trajectory.back().T_W_D), "#1d242c") +
            mark(plan.pixelOf(trajectory.front().T_W_D), "#2f6fb2");
   }

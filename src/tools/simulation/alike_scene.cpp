@@ -1,6 +1,7 @@
 // A room in which the same is to be seen again and again.
 #include <cmath>
 
+#include "depth_fusion/geometry/angles.h"
 #include "tools/simulation/floor_plan.h"
 #include "tools/simulation/scenes.h"
 
@@ -9,8 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Solids = std::vector<Primitive>;
-
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 
 // Lamps, shelves and what stands on them are the same again and again, and so are the tiles of the floor.
 Solids alikeEverywhere() {

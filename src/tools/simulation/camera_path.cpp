@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTwoPi = 6.283185307179586;
+constexpr double kFullTurn_rad = 6.283185307179586;
 constexpr int kTremorChannel = 100;
 constexpr double kTremorPeriod_s = 0.3;
 constexpr double kTremor_m = 0.001;
@@ -18,7 +18,7 @@ double phase(unsigned seed, int index) {
   uint64_t hash = (static_cast<uint64_t>(seed) << 32 | static_cast<uint32_t>(index)) + 0x9e3779b97f4a7c15ull;
   hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9ull;
   hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebull;
-  return kTwoPi * static_cast<double>((hash ^ (hash >> 31)) >> 11) / 9007199254740992.0;
+  return kFullTurn_rad * static_cast<double>((hash ^ (hash >> 31)) >> 11) / 9007199254740992.0;
 }
 
 // The camera has x right, y down and z forward, with the world's z up.
@@ -35,7 +35,7 @@ Pose lookAt(const Gaze& gaze) {
 }  // namespace
 
 double Sway::operator()(int channel, double period_s) const {
-  const double angle = kTwoPi * time_s_ / period_s;
+  const double angle = kFullTurn_rad * time_s_ / period_s;
   return 0.75 * std::sin(angle + phase(seed_, 2 * channel)) +
          0.25 * std::sin(1.618 * angle + phase(seed_, 2 * channel + 1));
 }

@@ -41,7 +41,7 @@ Walk thereAndBack() {
                     {-1.8, -0.25}});
 }
 
-Walk drive() {
+Walk driveThrough() {
   return driveAlong(
       "drive", "a robot: 60 m along the corridor from the first lobby, round, and back",
       {{0, -0.25}, {60, -0.25}, {60, 0.25}, {0.6, 0.25}, {0.6, 1.75}, {-1.8, 1.75}, {-1.8, -0.25}});
@@ -56,14 +56,14 @@ std::vector<Primitive> corridor() {
 
 }  // namespace
 
-SimulatedScene makeCorridorScene() { return sceneWithWalks(corridor(), {thereAndBack(), drive()}); }
+SimulatedScene makeCorridorScene() { return sceneWithWalks(corridor(), {thereAndBack(), driveThrough()}); }
 
 SimulatedScene makeWhiteCorridorScene() {
   Material white{{225, 225, 225}, Pattern::kPlain};
   white.shaded = false;
   std::vector<Primitive> solids = corridor();
   for (Primitive& solid : solids) solid.paint(white);
-  return sceneWithWalks(std::move(solids), {thereAndBack(), drive()});
+  return sceneWithWalks(std::move(solids), {thereAndBack(), driveThrough()});
 }
 
 }  // namespace depth_fusion

@@ -2,12 +2,12 @@
 // and nothing but texture shows the turn about the column's axis.
 #include <cmath>
 
+#include "depth_fusion/geometry/angles.h"
 #include "tools/simulation/scenes.h"
 
 namespace depth_fusion {
 namespace {
 
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 constexpr double kWalk_m_s = 0.3;
 constexpr double kOrbit_m = 1.3;
 

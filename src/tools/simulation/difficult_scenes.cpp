@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depth_fusion/geometry/angles.h"
 #include "tools/simulation/scenes.h"
 
 namespace depth_fusion {
@@ -12,7 +13,6 @@ using Eigen::Vector3d;
 using Solids = std::vector<Primitive>;
 
 constexpr double kTwoPi = 6.283185307179586;
-constexpr double kRadPerDeg = kTwoPi / 360.0;
 
 SimulatedScene seenByVideo(SimulatedScene scene) {
   scene.sensor.color = videoCamera();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "depth_fusion/geometry/angles.h"
+
 namespace depth_fusion {
 namespace {
 
@@ -10,7 +12,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kHalfTurn_rad = 3.141592653589793;
-constexpr double kRadPerDeg = kHalfTurn_rad / 180.0;
 constexpr double kHalfWall_m = 0.1;
 constexpr double kSlab_m = 0.2;
 constexpr double kFrame_m = 0.08;

@@ -1,13 +1,12 @@
 // A furnished room of 8 x 6 m, whose far side is as far as most sensors see.
 #include <cmath>
 
+#include "depth_fusion/geometry/angles.h"
 #include "tools/simulation/floor_plan.h"
 #include "tools/simulation/scenes.h"
 
 namespace depth_fusion {
 namespace {
-
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 
 Gaze largeRoomGaze(const Sway& walk, const Sway& look) {
   Gaze gaze;

@@ -1,12 +1,11 @@
 // A small figure on a table top at z = 0, with a few small things around it.
 #include <cmath>
 
+#include "depth_fusion/geometry/angles.h"
 #include "tools/simulation/scenes.h"
 
 namespace depth_fusion {
 namespace {
-
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 
 std::vector<Primitive> figure() {
   const Material body{{70, 120, 190}, Pattern::kSpeckles, 0.02, 0.6};

@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 constexpr int kBays = 30;
 constexpr double kBay_m = 3.0;
-constexpr double kSpeed_m_s = 0.6;
+constexpr double kStride_m_s = 0.6;
 
 // One bay: the floor, walls and ceiling from x = 0 to 3, with a door, a picture and a bench.
 std::vector<Primitive> bay() {
@@ -38,7 +38,7 @@ std::vector<Primitive> bay() {
 
 Gaze ahead(const Sway& walk, const Sway& look) {
   Gaze gaze;
-  gaze.eye_W = {3.0 + kSpeed_m_s * walk.time_s(), 0.1 * walk(0, 9.0), 1.4 + 0.03 * walk(1, 5.0)};
+  gaze.eye_W = {3.0 + kStride_m_s * walk.time_s(), 0.1 * walk(0, 9.0), 1.4 + 0.03 * walk(1, 5.0)};
   gaze.target_W = gaze.eye_W + Vector3d(1.0, 0.25 * look(2, 7.0), -0.12 + 0.05 * look(3, 6.0));
   return gaze;
 }

@@ -2,6 +2,7 @@
 // camera.
 #include <cmath>
 
+#include "depth_fusion/geometry/angles.h"
 #include "tools/simulation/scenes.h"
 
 namespace depth_fusion {
@@ -9,8 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Solids = std::vector<Primitive>;
-
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 
 const Material kWoodDark{{45, 75, 120}, Pattern::kWood, 0.12, 0.45};
 const Material kWoodLight{{110, 160, 200}, Pattern::kWood, 0.10, 0.35};

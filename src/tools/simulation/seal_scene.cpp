@@ -3,6 +3,7 @@
 // geometry leaves three directions free.
 #include <cmath>
 
+#include "depth_fusion/geometry/angles.h"
 #include "tools/simulation/scenes.h"
 
 namespace depth_fusion {
@@ -11,7 +12,6 @@ namespace {
 using Eigen::Vector3d;
 using Solids = std::vector<Primitive>;
 
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 constexpr double kGoldenAngle_rad = 2.399963229728653;
 
 const Material kHorn{{120, 160, 185}, Pattern::kMottle, 0.004, 0.35};

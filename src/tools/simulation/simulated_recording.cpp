@@ -5,12 +5,12 @@
 
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/frames/known_attitude.h"
+#include "depth_fusion/geometry/angles.h"
 
 namespace depth_fusion {
 namespace {
 
 constexpr double kReadout_s = 0.03;
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 
 void checkOptions(const SimulationOptions& options, const SimulatedScene& scene) {
   check(options.frames > 0, "a simulated recording needs at least one frame");

@@ -1,6 +1,7 @@
 // Flat surfaces without end: along them geometry says nothing, and only the texture shows the motion.
 #include <cmath>
 
+#include "depth_fusion/geometry/angles.h"
 #include "tools/simulation/scenes.h"
 
 namespace depth_fusion {
@@ -8,7 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 constexpr double kWalk_m_s = 0.3;
 constexpr double kWallY_m = 1.0;
 

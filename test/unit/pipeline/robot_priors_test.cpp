@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "depth_fusion/geometry/angles.h"
 #include "depth_fusion/pipeline/reconstruction_pipeline.h"
 #include "support/room_frames.h"
 #include "support/test_compute.h"
@@ -12,7 +13,6 @@ namespace depth_fusion {
 namespace {
 
 constexpr CameraIntrinsics kCamera{320, 240, 262.5, 262.5, 159.5, 119.5};
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 
 struct Ride {
   std::vector<TrackingResult> results;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "depth_fusion/geometry/angles.h"
 #include "support/simulated_frames.h"
 
 namespace depth_fusion {
@@ -10,7 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegPerRad = 180.0 / 3.141592653589793;
 const CameraIntrinsics kCamera{640, 480, 525.0, 525.0, 319.5, 239.5};
 
 const SimulatedScene& room() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <random>
 
+#include "depth_fusion/geometry/angles.h"
 #include "support/expect_error.h"
 #include "tools/simulation/building_plan.h"
 #include "tools/simulation/simulated_recording.h"
@@ -12,8 +13,6 @@ namespace depth_fusion {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kDegPerRad = 180.0 / 3.141592653589793;
 
 SimulatedRecording recordingOf(const std::string& scene, const std::string& walk = "") {
   SimulationOptions options;

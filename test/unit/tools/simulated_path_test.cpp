@@ -3,13 +3,12 @@
 
 #include <algorithm>
 
+#include "depth_fusion/geometry/angles.h"
 #include "support/expect_error.h"
 #include "tools/simulation/simulated_recording.h"
 
 namespace depth_fusion {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / 3.141592653589793;
 
 struct Rates {
   double length_m = 0.0, turn_deg = 0.0;    // summed
