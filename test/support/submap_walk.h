@@ -10,6 +10,7 @@
 
 #include "depth_fusion/submaps/map_file.h"
 #include "depth_fusion/submaps/submap_collection.h"
+#include "shared/types.h"
 #include "submaps/whole_map.h"
 #include "support/stored_maps.h"
 #include "support/temporary_folder.h"
@@ -135,6 +136,7 @@ class Walk {
       voxels += content;
     }
     map_.setVoxels(kTsdfLayer, changed, voxels);
+    map_.setStates(changed, std::vector<int>(changed.size(), BLOCK_HAS_DATA | BLOCK_SURE));
     map_.noteUpdated(changed);
     map_.remove(gone);
   }

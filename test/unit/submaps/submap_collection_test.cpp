@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "depth_fusion/submaps/map_file.h"
+#include "shared/types.h"
 #include "support/postgres_server.h"
 #include "support/submap_walk.h"
 #include "support/temporary_folder.h"
@@ -101,6 +102,23 @@ TEST(SubmapCollection, LapsTakeTheMemoryOfOne) {
   }
   EXPECT_LE(walk.submaps().blockCount(), blocks + blocks / 20);
   EXPECT_EQ(walk.submaps().submaps().size(), submaps);
+  walk.expectAll();
+}
+
+// Each time a noisy sensor comes by, it strews blocks about surfaces that are far.
+TEST(SubmapCollection, WhatNothingHasMadeSureIsForgotten) {
+  Walk walk(windowOf(32), smallMemory());
+  walk.goTo(0.0);
+  std::vector<int> unsure;
+  for (const SlotTable::Block& block : walk.map().slots().blocks()) {
+    if (block.slot % 2 == 0) continue;
+    unsure.push_back(block.slot);
+    walk.expected().erase(block.index);
+  }
+  ASSERT_GT(unsure.size(), 5u);
+  walk.map().setStates(unsure, std::vector<int>(unsure.size(), BLOCK_HAS_DATA));
+  walk.look(6.0);
+  EXPECT_EQ(walk.map().slots().used(), 0u);
   walk.expectAll();
 }
 
