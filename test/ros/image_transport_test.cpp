@@ -82,8 +82,9 @@ TEST_F(ImageTransport, AnImagesOwnTransportGoesFirst) {
 TEST_F(ImageTransport, ATransportWithoutAPluginIsAnErrorThatNamesTheOthers) {
   RgbdParameters parameters;
   parameters.depth_transport = "theora";
-  expectError([&] { parameters.checkTexts(); },
-              {"'theora' of depth/image", "raw, compressedDepth, compressed, inverted", "install a plugin"});
+  expectError(
+      [&] { parameters.checkTexts(); },
+      {"'theora' of depth/image", "raw, compressedDepth, compressed, points, inverted", "install a plugin"});
   parameters.depth_transport = "inverted";
   EXPECT_NO_THROW(parameters.checkTexts());
   parameters.image_transport = "compressedDepth";
