@@ -13,21 +13,22 @@ unset PYTHONHOME PYTHONPATH
 # what draws plots, and what map files and servers need. The tests start a PostgreSQL server of their own; scripts/check
 # has use for clang-format 14 only, which is Debian 12's. The viewer is tested on a screen in memory.
 TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd oclgrind python3-matplotlib liblmdb-dev libzstd-dev libpq-dev)
-CHECK_PACKAGES=(clang-format clang-tidy postgresql xvfb xauth libfcl-dev libompl-dev libassimp-dev libtinygltf-dev)
+CHECK_PACKAGES=(clang-format clang-tidy postgresql xvfb xauth libfcl-dev libompl-dev libtinygltf-dev)
 ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 # Debian carries ROS 1 itself, under its own names.
 DEBIAN_PACKAGES=(
   catkin catkin-lint libgtest-dev
   ros-message-generation ros-message-runtime ros-geometry-msgs ros-std-msgs
   libroscpp-dev libroscpp-core-dev pluginlib-dev libnodelet-dev libnodeletlib-dev libnodeletlib-tools libdiagnostic-updater-dev
+  libactionlib-dev libactionlib-msgs-dev ros-actionlib-msgs python3-actionlib
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure
   libcamera-info-manager-dev libimage-transport-dev libopenni2-dev
   librosbag-storage-dev libtf2-ros-dev libtf2-msgs-dev tf2-tools
   libstd-msgs-dev libsensor-msgs-dev libgeometry-msgs-dev libmap-msgs-dev libnav-msgs-dev libvisualization-msgs-dev libdiagnostic-msgs-dev
-  libstd-srvs-dev libros-rosgraph-msgs-dev
+  libstd-srvs-dev libros-rosgraph-msgs-dev liburdf-dev libroslib-dev
   python3-std-srvs python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs
   librostest-dev python3-rostest python3-roslaunch python3-rosbag python3-rosservice python3-rostopic rosbash rosout rospack-tools rviz
-  libeigen3-dev libceres-dev liboctomap-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev libpcl-dev
+  libeigen3-dev libceres-dev liboctomap-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev libpcl-dev libpcl-ros-dev libassimp-dev
   ocl-icd-opencl-dev opencl-headers libbenchmark-dev
 )
 

@@ -9,7 +9,7 @@ FLOORS = [
     ["compute"],
     ["frames"],
     ["map", "recording"],
-    ["registration", "preprocessing", "texture_odometry", "robot_motion", "tsdf_fusion", "color_fusion", "model_view",
+    ["registration", "masking", "preprocessing", "texture_odometry", "robot_motion", "tsdf_fusion", "color_fusion", "model_view",
      "icp_tracking", "relocalisation", "surface_mesh", "esdf", "acquisition"],
     ["loops", "texturing"],
     ["submaps"],

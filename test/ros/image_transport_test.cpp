@@ -82,15 +82,16 @@ TEST_F(ImageTransport, AnImagesOwnTransportGoesFirst) {
 TEST_F(ImageTransport, ATransportWithoutAPluginIsAnErrorThatNamesTheOthers) {
   RgbdParameters parameters;
   parameters.depth_transport = "theora";
-  expectError([&] { parameters.checkTransports(); },
-              {"'theora' of depth/image", "raw, compressedDepth, compressed, inverted", "install a plugin"});
+  expectError(
+      [&] { parameters.checkTexts(); },
+      {"'theora' of depth/image", "raw, compressedDepth, compressed, points, inverted", "install a plugin"});
   parameters.depth_transport = "inverted";
-  EXPECT_NO_THROW(parameters.checkTransports());
+  EXPECT_NO_THROW(parameters.checkTexts());
   parameters.image_transport = "compressedDepth";
-  expectError([&] { parameters.checkTransports(); },
+  expectError([&] { parameters.checkTexts(); },
               {"'compressedDepth' of rgb/image", "raw, compressed, inverted"});
   parameters.color_transport = "raw";
-  EXPECT_NO_THROW(parameters.checkTransports());
+  EXPECT_NO_THROW(parameters.checkTexts());
 }
 
 TEST_F(ImageTransport, ANodeletDoesNotStartWithATransportThatNothingDecodes) {

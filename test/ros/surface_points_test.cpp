@@ -1,5 +1,9 @@
 // The surface as points, and the blocks as boxes.
+#include "ros/conversions/surface_points.h"
+
 #include <dynamic_reconfigure/Reconfigure.h>
+#include <pcl/point_types.h>
+#include <pcl_ros/point_cloud.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 
@@ -30,6 +34,31 @@ TEST_F(SurfacePointsTest, pointsLieOnTheSurface) {
     EXPECT_NEAR(p.norm(), 0.08f, 0.001f);
     EXPECT_GT(n.dot(p.normalized()), 0.99f);
     EXPECT_GT(rgb[0] + rgb[1] + rgb[2], 60);
+  }
+}
+
+// Who takes clouds of PCL's in the same process is handed the cloud itself: it has what no message carries.
+TEST_F(SurfacePointsTest, withinTheProcessTheCloudIsHandedOverAndNotCopied) {
+  map_.seeFrom({0.5, 0.25, -1.0});
+  load();
+  map_.show(ball({0.0, 0.0, 0.0}, 0.08));
+  std::mutex mutex;
+  std::vector<boost::shared_ptr<const SurfacePoints>> clouds;
+  const ros::Subscriber subscriber = graph_.handle().subscribe<SurfacePoints>(
+      "surface_mesh/points", 10, [&](const boost::shared_ptr<const SurfacePoints>& cloud) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        clouds.push_back(cloud);
+      });
+  ASSERT_TRUE(eventually([&] {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return !clouds.empty() && clouds.back()->size() > 150;
+  }));
+  const std::lock_guard<std::mutex> lock(mutex);
+  EXPECT_EQ(clouds.back()->header.frame_id, "map");
+  EXPECT_EQ(clouds.back()->sensor_origin_.head<3>(), Eigen::Vector3f(0.5f, 0.25f, -1.0f));
+  for (const pcl::PointXYZRGBNormal& point : *clouds.back()) {
+    EXPECT_NEAR(point.getVector3fMap().norm(), 0.08f, 0.001f);
+    EXPECT_GT(point.getNormalVector3fMap().dot(point.getVector3fMap().normalized()), 0.99f);
   }
 }
 

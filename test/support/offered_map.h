@@ -1,6 +1,7 @@
 // A map that nodelets find as that of tsdf_fusion, and that the test changes.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -37,6 +38,13 @@ class OfferedMap {
       exportSurfaceMesh(*map_->compute, fused.map(), mesh);
       return mesh;
     });
+  }
+  void seeFrom(const Eigen::Vector3d& camera_W) {
+    map_->locked([&](FusedMap& fused) { fused.noteFrame(0.0, camera_W); });
+  }
+  // Runs the action while nobody else gets at the map.
+  void whileHeld(const std::function<void()>& action) {
+    map_->locked([&](FusedMap&) { action(); });
   }
   bool isFollowed() {
     return map_->locked([](FusedMap& fused) { return fused.map().isFollowed(); });

@@ -47,6 +47,8 @@ BagImage readImage(const rosbag::MessageInstance& place, const BagFiles& bags) {
   image.received_s = place.getTime().toSec();
   if (place.getDataType() == kCompressedImageType) {
     image.message.compressed = readMessage<sensor_msgs::CompressedImage>(place, bags);
+  } else if (place.getDataType() == kPointCloudType) {
+    image.message.cloud = readMessage<sensor_msgs::PointCloud2>(place, bags);
   } else {
     image.message.raw = readMessage<sensor_msgs::Image>(place, bags);
   }

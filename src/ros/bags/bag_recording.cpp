@@ -115,6 +115,10 @@ class BagRecording : public Recording {
 
   // Depth and colour have one clock: stamps, not times, say what belongs together, also where it jumps.
   void addColor(const BagImage& depth_image, RgbdFrame& frame) {
+    if (sources_.color_topic.empty() && depth_image.message.cloud != nullptr) {
+      frame.color = toColor(depth_image);
+      return;
+    }
     const BagImage* color_image = nearest(color_images_, max_pairing_gap_s_, [&](const BagImage& color) {
       return std::abs(color.stamp_s - depth_image.stamp_s);
     });

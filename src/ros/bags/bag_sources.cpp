@@ -43,6 +43,8 @@ class SourceFinder {
     noteRivals();
     if (options_.intrinsics) {
       sources_.intrinsics = chooseIntrinsics(options_.intrinsics, std::nullopt, depth.size, bags_.name());
+    } else if (typeOf(sources_.depth_topic) == kPointCloudType) {
+      findCloudCamera();
     } else {
       findDepthCamera(depth.size);
     }
@@ -64,9 +66,25 @@ class SourceFinder {
         std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& t) { return t.name == name; });
     check(topic != topics_.end(),
           bags_.name() + ": there is no topic " + name + "; the bag holds " + listTopics(topics_));
-    check(topic->type == kImageType || topic->type == kCompressedImageType,
-          bags_.name() + ": " + name + " is no image topic; the bag holds " + listTopics(topics_));
+    check(topic->type == kImageType || topic->type == kCompressedImageType || topic->type == kPointCloudType,
+          bags_.name() + ": " + name + " is no topic of images or clouds; the bag holds " +
+              listTopics(topics_));
     return name;
+  }
+
+  std::string typeOf(const std::string& name) const {
+    const auto topic =
+        std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& t) { return t.name == name; });
+    return topic == topics_.end() ? "" : topic->type;
+  }
+
+  // Organised clouds tell their camera themselves.
+  void findCloudCamera() {
+    const std::string name = bags_.name() + ": " + sources_.depth_topic;
+    useMessage<sensor_msgs::PointCloud2>(sources_.depth_topic, [&](const sensor_msgs::PointCloud2& cloud) {
+      sources_.intrinsics = {cameraOfCloud(cloud, name), "from the points of " + sources_.depth_topic};
+      depth_camera_.intrinsics = sources_.intrinsics.camera;
+    });
   }
 
   void notePublishers() {
@@ -89,15 +107,15 @@ class SourceFinder {
   }
 
   // The first message of the topic that `use` takes without an Error; throws that of the first if none is.
-  template <class Use>
-  bool useInfo(const std::string& topic, const Use& use) const {
+  template <class Message, class Use>
+  bool useMessage(const std::string& topic, const Use& use) const {
     rosbag::View view;
     bags_.addTo(view, {topic});
     std::string first_problem;
     int looked_at = 0;
     for (auto place = view.begin(); place != view.end() && looked_at < kMostInfos; ++place, ++looked_at) {
       try {
-        use(*readMessage<sensor_msgs::CameraInfo>(*place, bags_));
+        use(*readMessage<Message>(*place, bags_));
         return true;
       } catch (const Error& error) {
         if (first_problem.empty()) first_problem = error.what();
@@ -109,15 +127,16 @@ class SourceFinder {
 
   void findDepthCamera(cv::Size size) {
     const auto takeFrom = [&](const std::string& topic) {
-      return useInfo(topic,
-                     [&](const sensor_msgs::CameraInfo& info) {
-                       const std::string name = bags_.name() + ": " + topic;
-                       depth_camera_ = cameraFromInfo(info, name, sources_.depth_topic, size);
-                       checkDepthLens(depth_camera_.lens, name);
-                       maxSquaredRadius(depth_camera_.intrinsics, depth_camera_.lens, name);
-                       sources_.intrinsics = {depth_camera_.intrinsics, "from " + topic};
-                       sources_.distortion = depth_camera_.lens;
-                     }) &&
+      return useMessage<sensor_msgs::CameraInfo>(
+                 topic,
+                 [&](const sensor_msgs::CameraInfo& info) {
+                   const std::string name = bags_.name() + ": " + topic;
+                   depth_camera_ = cameraFromInfo(info, name, sources_.depth_topic, size);
+                   checkDepthLens(depth_camera_.lens, name);
+                   maxSquaredRadius(depth_camera_.intrinsics, depth_camera_.lens, name);
+                   sources_.intrinsics = {depth_camera_.intrinsics, "from " + topic};
+                   sources_.distortion = depth_camera_.lens;
+                 }) &&
              noteChange(topic, size);
     };
     const std::string own_topic = ownInfoTopic(topics_, sources_.depth_topic);
@@ -189,7 +208,8 @@ class SourceFinder {
       maxSquaredRadius(camera.intrinsics.value_or(depth_camera_.intrinsics), camera.lens, topic);
       if (info != nullptr && !camera.is_registered) color_frame = info->header.frame_id;
     };
-    if (topic.empty() || !useInfo(topic, [&](const sensor_msgs::CameraInfo& info) { take(&info); }))
+    if (topic.empty() || !useMessage<sensor_msgs::CameraInfo>(
+                             topic, [&](const sensor_msgs::CameraInfo& info) { take(&info); }))
       take(nullptr);
     if (!camera.remark.empty()) remark(camera.remark);
     sources_.color_intrinsics = camera.intrinsics;

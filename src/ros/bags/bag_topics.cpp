@@ -78,15 +78,17 @@ int rankByName(const std::string& topic, const std::array<const char*, kCount>& 
 }
 
 bool isDepth(const BagTopic& topic) {
+  if (topic.type == kPointCloudType) return true;
   return (isImage(topic, kCompressedDepthName) || isImage(topic, kCompressedName)) &&
          contains(baseTopic(topic.name), "depth") && !isOtherThanDistance(topic.name);
 }
 
 // What is compressed as a picture may be a PNG of 16 bits, or no depth any more.
-std::array<int, 4> depthRank(const BagTopic& topic) {
+std::array<int, 5> depthRank(const BagTopic& topic) {
   constexpr std::array<const char*, 4> kPreferred = {"image_raw", "image", "image_rect", "image_rect_raw"};
-  return {isImage(topic, kCompressedDepthName) ? 0 : 1, isRegistered(topic.name) ? 0 : 1,
-          topic.type == kImageType ? 0 : 1, rankByName(topic.name, kPreferred)};
+  return {topic.type == kPointCloudType ? 1 : 0, isImage(topic, kCompressedDepthName) ? 0 : 1,
+          isRegistered(topic.name) ? 0 : 1, topic.type == kImageType ? 0 : 1,
+          rankByName(topic.name, kPreferred)};
 }
 
 // The topic of lowest rank among the wanted; the first by name among equals.

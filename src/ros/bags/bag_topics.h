@@ -14,9 +14,11 @@ struct BagTopic {
 
 constexpr char kImageType[] = "sensor_msgs/Image";
 constexpr char kCompressedImageType[] = "sensor_msgs/CompressedImage";
+constexpr char kPointCloudType[] = "sensor_msgs/PointCloud2";
 constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
 
-// The best image topic with depth in its name: registered before others, raw before compressed.
+// The best image topic with depth in its name: registered before others, raw before compressed. Without one,
+// a topic of point clouds.
 std::optional<BagTopic> findDepthTopic(const std::vector<BagTopic>& topics);
 
 // Topics that are no worse than it but for their names: those of other cameras.

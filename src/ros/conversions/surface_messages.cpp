@@ -1,11 +1,8 @@
 #include "ros/conversions/surface_messages.h"
 
-#include <sensor_msgs/point_cloud2_iterator.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 
 namespace depth_fusion {
 namespace {
@@ -31,10 +28,6 @@ MeshColor shadeOf(const Eigen::Vector3f& normal) {
   for (int channel = 0; channel < 3; ++channel)
     rgb[channel] = static_cast<uint8_t>(std::lround(255.0f * std::min(1.0f, color[channel])));
   return rgb;
-}
-
-MeshColor colorOf(const TriangleMesh& mesh, size_t vertex) {
-  return mesh.colors.empty() ? shadeOf(mesh.vertices[vertex].normal_W) : mesh.colors[vertex];
 }
 
 // The stamp of zero means to rviz: wherever the frame is now.
@@ -69,6 +62,10 @@ std_msgs::ColorRGBA colorMessage(const MeshColor& color) {
 
 }  // namespace
 
+MeshColor shownColor(const TriangleMesh& mesh, size_t vertex) {
+  return mesh.colors.empty() ? shadeOf(mesh.vertices[vertex].normal_W) : mesh.colors[vertex];
+}
+
 Marker makeSurfaceMarker(const std::string& frame_id, int id, const TriangleMesh& mesh) {
   Marker marker = makeMarker(frame_id, kSurfaceMarkers, id, Marker::ADD);
   marker.type = Marker::TRIANGLE_LIST;
@@ -76,7 +73,7 @@ Marker makeSurfaceMarker(const std::string& frame_id, int id, const TriangleMesh
   marker.colors.reserve(3 * mesh.triangles.size());
   std::vector<std_msgs::ColorRGBA> colors;
   colors.reserve(mesh.vertices.size());
-  for (size_t i = 0; i < mesh.vertices.size(); ++i) colors.push_back(colorMessage(colorOf(mesh, i)));
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) colors.push_back(colorMessage(shownColor(mesh, i)));
   for (const MeshTriangle& triangle : mesh.triangles) {
     for (const uint32_t vertex : triangle) {
       marker.points.push_back(pointOf(mesh.vertices[vertex].position_W));
@@ -108,53 +105,6 @@ Marker makeBlockMarker(const std::string& frame_id, const BlockMap& map) {
   marker.color.a = 0.25f;
   if (marker.points.empty()) marker.action = Marker::DELETE;
   return marker;
-}
-
-TriangleMesh thinned(const TriangleMesh& mesh, float spacing_m) {
-  TriangleMesh kept;
-  std::unordered_set<uint64_t> taken;
-  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (spacing_m > 0.0f) {
-      uint64_t cube = 0;
-      for (const float coordinate_m : mesh.vertices[i].position_W)
-        cube = cube << 21 | (static_cast<uint64_t>(std::floor(coordinate_m / spacing_m)) & 0x1fffff);
-      if (!taken.insert(cube).second) continue;
-    }
-    kept.vertices.push_back(mesh.vertices[i]);
-    if (!mesh.colors.empty()) kept.colors.push_back(mesh.colors[i]);
-  }
-  return kept;
-}
-
-sensor_msgs::PointCloud2 makePointCloud(const std_msgs::Header& header,
-                                        const std::vector<const TriangleMesh*>& meshes) {
-  using sensor_msgs::PointField;
-  sensor_msgs::PointCloud2 cloud;
-  cloud.header = header;
-  cloud.is_dense = true;
-  sensor_msgs::PointCloud2Modifier modifier(cloud);
-  modifier.setPointCloud2Fields(7, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
-                                PointField::FLOAT32, "normal_x", 1, PointField::FLOAT32, "normal_y", 1,
-                                PointField::FLOAT32, "normal_z", 1, PointField::FLOAT32, "rgb", 1,
-                                PointField::FLOAT32);
-  size_t points = 0;
-  for (const TriangleMesh* mesh : meshes) points += mesh->vertices.size();
-  modifier.resize(points);
-  if (points == 0) return cloud;
-  sensor_msgs::PointCloud2Iterator<float> out(cloud, "x");
-  sensor_msgs::PointCloud2Iterator<uint8_t> rgb(cloud, "rgb");
-  for (const TriangleMesh* mesh : meshes) {
-    for (size_t i = 0; i < mesh->vertices.size(); ++i, ++out, ++rgb) {
-      std::copy_n(mesh->vertices[i].position_W.data(), 3, &out[0]);
-      std::copy_n(mesh->vertices[i].normal_W.data(), 3, &out[3]);
-      const auto& [red, green, blue] = colorOf(*mesh, i);
-      rgb[0] = blue;
-      rgb[1] = green;
-      rgb[2] = red;
-      rgb[3] = 0;
-    }
-  }
-  return cloud;
 }
 
 }  // namespace depth_fusion

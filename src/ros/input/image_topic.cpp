@@ -18,6 +18,7 @@ constexpr uint32_t kTopicQueue = 10;
 
 ImageMessage asImage(const sensor_msgs::ImageConstPtr& message) { return {message, nullptr}; }
 ImageMessage asImage(const sensor_msgs::CompressedImageConstPtr& message) { return {nullptr, message}; }
+ImageMessage asImage(const sensor_msgs::PointCloud2ConstPtr& message) { return {nullptr, nullptr, message}; }
 
 }  // namespace
 
@@ -51,6 +52,8 @@ void ImageTopic::subscribe(const std::string& transport) {
   image_transport::Subscriber plugin_subscriber;
   if (transport == kRawTransport) {
     subscriber = subscribed<sensor_msgs::Image>(transport);
+  } else if (transport == kPointsTransport) {
+    subscriber = subscribed<sensor_msgs::PointCloud2>(transport);
   } else if (is_own) {
     subscriber = subscribed<sensor_msgs::CompressedImage>(transport);
   } else {
@@ -106,7 +109,8 @@ void ImageTopic::receive(const std::string& publisher, const boost::shared_ptr<c
 }
 
 std::string ImageTopic::nameWith(const std::string& transport) const {
-  return base_name_ + (transport == kRawTransport ? "" : "/" + transport);
+  const bool is_topic_itself = transport == kRawTransport || transport == kPointsTransport;
+  return base_name_ + (is_topic_itself ? "" : "/" + transport);
 }
 
 std::string ImageTopic::name() const {

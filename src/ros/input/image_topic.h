@@ -18,6 +18,7 @@ class PublishedTopics;
 
 constexpr char kRawTransport[] = "raw";
 constexpr char kAutoTransport[] = "auto";
+constexpr char kPointsTransport[] = "points";  // the topic itself is one of sensor_msgs/PointCloud2
 
 class ImageTopic {
  public:

@@ -17,9 +17,10 @@ namespace depth_fusion {
 // A depth image with the colour that belongs to it, as they came. They are decoded when their turn comes, and
 // never if they are skipped.
 struct RgbdMessages {
-  std_msgs::Header header;    // the depth image's, with the stamp that it goes on with
-  ImageMessage depth, color;  // color is empty if there is none within max_gap_s
-  std::string color_problem;  // why there is none though colour comes
+  std_msgs::Header header;          // the depth image's, with the stamp that it goes on with
+  ImageMessage depth, color;        // color is empty if there is none within max_gap_s
+  std::string color_problem;        // why there is none though colour comes
+  sensor_msgs::ImageConstPtr mask;  // of what is not to be mapped; null: none
   std::string depth_topic, color_topic;
   uint32_t clock_jumps = 0;  // how often the clock had jumped back before
   ros::WallTime received;

@@ -1,5 +1,6 @@
 #include "ros/input/rgbd_parameters.h"
 
+#include "depth_fusion/masking/solid_body.h"
 #include "ros/input/transport_plugin.h"
 
 namespace depth_fusion {
@@ -14,7 +15,7 @@ void checkUnlessAuto(const std::string& image, const std::string& transport,
 
 }  // namespace
 
-std::vector<std::string> ownDepthTransports() { return {"raw", "compressedDepth", "compressed"}; }
+std::vector<std::string> ownDepthTransports() { return {"raw", "compressedDepth", "compressed", "points"}; }
 
 std::vector<std::string> ownColorTransports() { return {"raw", "compressed"}; }
 
@@ -24,7 +25,8 @@ ParameterTable RgbdParameters::table() {
                            "compressed, or one that has a plugin of image_transport here; auto: raw, or a "
                            "compressed one where only that is published")),
           atStartOnly(text("depth_transport", &depth_transport,
-                           "of depth/image: as image_transport, or compressedDepth")),
+                           "of depth/image: as image_transport, or compressedDepth; points: the topic "
+                           "is one of clouds, sensor_msgs/PointCloud2")),
           atStartOnly(text("color_transport", &color_transport, "of rgb/image: as image_transport")),
           number("max_pairing_gap_s", &pairing.max_gap_s, 0.0, 1.0,
                  "colour farther from its depth than this is left out"),
@@ -40,9 +42,10 @@ std::string RgbdParameters::colorTransport() const {
   return color_transport == kAuto ? image_transport : color_transport;
 }
 
-void RgbdParameters::checkTransports() const {
+void RgbdParameters::checkTexts() const {
   checkUnlessAuto("depth/image", depthTransport(), ownDepthTransports());
   checkUnlessAuto("rgb/image", colorTransport(), ownColorTransports());
+  parseBody(masking.body);
 }
 
 }  // namespace depth_fusion

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "depth_fusion/common/parameters.h"
+#include "depth_fusion/masking/masking_parameters.h"
 #include "depth_fusion/registration/registration_parameters.h"
 
 namespace depth_fusion {
@@ -23,14 +24,15 @@ struct RgbdParameters {
   std::string depth_transport = "auto";
   std::string color_transport = "auto";
   PairingParameters pairing;
-  RegistrationParameters registration;  // has a table of its own
+  RegistrationParameters registration;  // has a table of its own, as has the next
+  MaskingParameters masking;
 
-  // All rows but those of the registration.
+  // All rows but those of registration and masking.
   ParameterTable table();
   std::string depthTransport() const;
   std::string colorTransport() const;
-  // Throws Error if nothing here decodes one of the transports.
-  void checkTransports() const;
+  // Throws Error if nothing here decodes one of the transports, and for a body of masking that is none.
+  void checkTexts() const;
 };
 
 }  // namespace depth_fusion

@@ -18,8 +18,10 @@ RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& par
       callback_(std::move(callback)),
       decoder_(handle, device),
       watch_(depth_, color_, decoder_.cameras()),
-      registration_parameters_(parameters.registration),
+      parameters_(parameters),
       pairing_(parameters.pairing),
+      body_(handle, parameters.masking),
+      masks_(handle),
       color_(handle, "rgb/image", parameters.colorTransport(), ownColorTransports(),
              {[this](const ImageMessage& image) { onColor(image); }, [](uint32_t) {}, [] {}}),
       depth_(handle, "depth/image", parameters.depthTransport(), ownDepthTransports(),
@@ -35,9 +37,10 @@ RgbdSubscriber::RgbdSubscriber(ros::NodeHandle handle, const RgbdParameters& par
                                              [this](const ros::WallTimerEvent&) { watch_.look(); })) {}
 
 void RgbdSubscriber::setParameters(const RgbdParameters& parameters) {
+  body_.setParameters(parameters.masking);
   const std::lock_guard<std::mutex> lock(mutex_);
   pairing_.setParameters(parameters.pairing);
-  registration_parameters_ = parameters.registration;
+  parameters_ = parameters;
 }
 
 void RgbdSubscriber::onDepth(const ImageMessage& image) {
@@ -104,7 +107,12 @@ void RgbdSubscriber::deliverComplete() {
   delivering_ = true;
   while (const RgbdMessagesPtr messages = takeComplete()) {
     lock.unlock();
-    callback_(messages);
+    if (messages->mask == nullptr && masks_.isPublished()) {
+      drop("no mask",
+           masks_.name() + " is published, and has no mask of the image's stamp; see masking/max_wait_s");
+    } else {
+      callback_(messages);
+    }
     lock.lock();
   }
   delivering_ = false;
@@ -112,23 +120,41 @@ void RgbdSubscriber::deliverComplete() {
 
 RgbdMessagesPtr RgbdSubscriber::takeComplete() {
   const RgbdMessages* first = pairing_.first();
-  if (first == nullptr) return nullptr;
+  return first != nullptr && isComplete(*first) ? withMask(pairing_.takeFirst()) : nullptr;
+}
+
+bool RgbdSubscriber::isComplete(const RgbdMessages& first) {
   const ros::WallTime now = ros::WallTime::now();
-  const bool are_known = decoder_.cameras().areKnown(first->header);
-  const bool waited_in_vain = !are_known && pairing_.waited_s(now) > kMaxInfoWait_s;
+  const double waited_s = pairing_.waited_s(now);
+  const bool are_known = decoder_.knowsCameras(first);
+  const bool waited_in_vain = !are_known && waited_s > kMaxInfoWait_s;
   awaits_cameras_ = (awaits_cameras_ || are_known) && !waited_in_vain;
-  if (!are_known && awaits_cameras_) return nullptr;
-  return pairing_.firstIsComplete(now, color_.isPublished()) ? pairing_.takeFirst() : nullptr;
+  if (!are_known && awaits_cameras_) return false;
+  if (!pairing_.firstIsComplete(now, color_.isPublished())) return false;
+  if (waited_s > parameters_.masking.max_wait_s) return true;
+  const ros::Time& stamp = first.depth.header().stamp;
+  const bool mask_comes = masks_.isPublished() && !masks_.isPast(stamp) &&
+                          masks_.find(stamp, parameters_.pairing.max_gap_s) == nullptr;
+  return !mask_comes && body_.isKnown(first.header);
+}
+
+RgbdMessagesPtr RgbdSubscriber::withMask(const RgbdMessagesPtr& messages) const {
+  const sensor_msgs::ImageConstPtr mask =
+      masks_.find(messages->depth.header().stamp, parameters_.pairing.max_gap_s);
+  if (mask == nullptr) return messages;
+  auto masked = std::make_shared<RgbdMessages>(*messages);
+  masked->mask = mask;
+  return masked;
 }
 
 SensorFramePtr RgbdSubscriber::decode(const RgbdMessages& messages) {
   RegistrationParameters registration;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    registration = registration_parameters_;
+    registration = parameters_.registration;
   }
   try {
-    const SensorFramePtr frame = decoder_.decode(messages, registration);
+    const SensorFramePtr frame = body_.withoutBody(decoder_.decode(messages, registration));
     const std::string& color_problem = frame->rgbd.color_problem;
     if (said_of_color_.isNew(color_problem)) ROS_WARN_STREAM(color_problem << "; only depth is used");
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -58,6 +58,13 @@ bool SensorCameras::areKnown(const std_msgs::Header& depth) {
   return color_frame.empty() || tf().canTransform(color_frame, depth.frame_id, ros::Time(0));
 }
 
+CameraIntrinsics SensorCameras::depthCamera(const ros::Time& stamp) const {
+  const auto info = find(depth_infos_, stamp);
+  check(info != nullptr, "no camera_info yet on " + depth_info_topic_ +
+                             "; a cloud that is a list of points is projected into the image of that camera");
+  return cameraFromInfo(*info, depth_info_topic_, depth_info_topic_, imageSizeOf(*info)).intrinsics;
+}
+
 std::string SensorCameras::describe(const RgbdMessages& messages, SensorFrame& frame) {
   const ros::Time& stamp = messages.depth.header().stamp;
   describeDepth(find(depth_infos_, stamp).get(), messages.depth_topic, frame.rgbd);

@@ -28,6 +28,9 @@ class SensorCameras {
   // A camera_info of the depth camera has come.
   bool hasDepth() const;
   const std::string& depthInfoTopic() const { return depth_info_topic_; }
+  // The depth camera without its lens's distortion, for points that have none. Throws Error where no
+  // camera_info has come.
+  CameraIntrinsics depthCamera(const ros::Time& stamp) const;
   // Sets the frame's intrinsics, its lens distortions and T_C_D by the camera_info of the images' stamps, or
   // the latest where there is none. The names of the image topics tell whether the images are rectified.
   // Returns the tf frame of the colour camera where T_C_D is set, else an empty name. What is wrong with the

@@ -99,7 +99,7 @@ void IcpTrackingNodelet::subscribe() {
 void IcpTrackingNodelet::applyParameters() {
   const PipelineParameters& pipeline = parameters_.tracker.pipeline;
   validateRange(pipeline.preprocessing, pipeline.depth_sensor);
-  parameters_.rgbd.checkTransports();
+  parameters_.rgbd.checkTexts();
   if (tracker_ != nullptr) tracker_->applyParameters();
   if (sensor_subscriber_ != nullptr) sensor_subscriber_->setParameters(parameters_.rgbd);
 }

@@ -14,6 +14,7 @@ ParameterTable IcpTrackingNodeletParameters::table() {
 
 std::vector<std::pair<std::string, ParameterTable>> IcpTrackingNodeletParameters::stages() {
   return {{"registration", rgbd.registration.table()},
+          {"masking", rgbd.masking.table()},
           {"depth_sensor", tracker.pipeline.depth_sensor.table()},
           {"preprocessing", tracker.pipeline.preprocessing.table()},
           {"drift", tracker.pipeline.drift.table()},

@@ -1,13 +1,10 @@
-// The surface of tsdf_fusion's map: to files by a service, and to viewers as markers, points and boxes while
-// it grows.
-#include <ros/callback_queue.h>
-#include <ros/spinner.h>
-
+// The surface of tsdf_fusion's map: to files and messages by a service and an action, and to viewers as
+// markers, points and boxes while it grows.
 #include <pluginlib/class_list_macros.hpp>
 
 #include "ros/nodelets/stage_nodelet.h"
 #include "ros/nodelets/surface_mesh_nodelet_parameters.h"
-#include "ros/output/mesh_export.h"
+#include "ros/output/mesh_export_server.h"
 #include "ros/output/surface_publisher.h"
 
 namespace depth_fusion {
@@ -25,10 +22,8 @@ class SurfaceMeshNodelet : public StageNodelet {
   std::shared_ptr<SharedMap> findFusionMap() const { return findMap(parameters_.map); }
   std::string noMapReason() const;
 
-  void update();  // in the timer's thread
-  // In the service's thread:
-  bool serveExport(ExportMesh::Request& request, ExportMesh::Response& response);
-  ExportMesh::Response exportNow(const ExportMesh::Request& request);
+  void update();                            // in the timer's thread
+  MeshExportServer::Source exportSource();  // in the exports' threads
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override;
 
@@ -36,13 +31,10 @@ class SurfaceMeshNodelet : public StageNodelet {
   SurfaceMeshNodeletParameters parameters_;
   std::unique_ptr<SurfacePublisher> surface_;
   std::mutex status_mutex_;
-  std::string problem_;  // of the last update or export
-  std::string last_export_;
+  std::string problem_;  // of the last update
 
   ros::WallTimer update_timer_;
-  ros::CallbackQueue export_queue_;
-  ros::ServiceServer export_server_;
-  std::unique_ptr<ros::AsyncSpinner> export_spinner_;
+  std::unique_ptr<MeshExportServer> exports_;
 };
 
 SurfaceMeshNodelet::~SurfaceMeshNodelet() { stopServing(); }
@@ -69,13 +61,9 @@ void SurfaceMeshNodelet::betweenFrames(const std::function<void()>& action) {
 
 void SurfaceMeshNodelet::advertise() {
   surface_ = std::make_unique<SurfacePublisher>(getMTPrivateNodeHandle());
-  ros::NodeHandle export_handle = getPrivateNodeHandle();
-  export_handle.setCallbackQueue(&export_queue_);
-  export_server_ = callbacks_.advertiseService<ExportMesh::Request, ExportMesh::Response>(
-      export_handle, "export_mesh",
-      [this](auto& request, auto& response) { return serveExport(request, response); });
-  export_spinner_ = std::make_unique<ros::AsyncSpinner>(1, &export_queue_);
-  export_spinner_->start();
+  exports_ = std::make_unique<MeshExportServer>(
+      getPrivateNodeHandle(), callbacks_, [this] { return exportSource(); },
+      [this](const StageTimers& timers) { recordTimings(timers); });
 }
 
 std::string SurfaceMeshNodelet::noMapReason() const {
@@ -100,31 +88,12 @@ void SurfaceMeshNodelet::update() {
   problem_ = problem;
 }
 
-bool SurfaceMeshNodelet::serveExport(ExportMesh::Request& request, ExportMesh::Response& response) {
-  try {
-    response = exportNow(request);
-  } catch (const std::exception& error) {
-    response.success = false;
-    response.message = error.what();
-  }
-  const std::lock_guard<std::mutex> lock(status_mutex_);
-  last_export_ = (response.success ? "" : "failed: ") + response.message;
-  return true;
-}
-
-ExportMesh::Response SurfaceMeshNodelet::exportNow(const ExportMesh::Request& request) {
-  StageTimers timers;
-  ExportMesh::Response response;
-  {
-    const StageTimers::Scope timer(timers, "surface_mesh/export");
-    const std::shared_ptr<SharedMap> map = findFusionMap();
-    check(map != nullptr, noMapReason());
-    SurfaceMeshParameters parameters;
-    betweenFrames([&] { parameters = parameters_.mesh; });
-    response = exportMesh(*map, request, parameters);
-  }
-  recordTimings(timers);
-  return response;
+MeshExportServer::Source SurfaceMeshNodelet::exportSource() {
+  MeshExportServer::Source source;
+  source.map = findFusionMap();
+  check(source.map != nullptr, noMapReason());
+  betweenFrames([&] { source.parameters = parameters_.mesh; });
+  return source;
 }
 
 void SurfaceMeshNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -138,7 +107,8 @@ void SurfaceMeshNodelet::diagnose(diagnostic_updater::DiagnosticStatusWrapper& s
   }
   status.add("viewers of markers", surface_->markerViewers());
   status.add("viewers of points", surface_->pointViewers());
-  if (!last_export_.empty()) status.add("last export", last_export_);
+  const std::string last_export = exports_->last();
+  if (!last_export.empty()) status.add("last export", last_export);
 }
 
 }  // namespace depth_fusion

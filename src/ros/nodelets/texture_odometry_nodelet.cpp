@@ -46,8 +46,9 @@ void TextureOdometryNodelet::start() {
   for (const Parameter& row : rgbd_.table()) table.push_back(row);
   table.push_back(deviceRow(device_));
   table.push_back(queueSizeRow(queue_size_));
-  loadParameters(table,
-                 {{"registration", rgbd_.registration.table()}, {"depth_sensor", depth_sensor_.table()}});
+  loadParameters(table, {{"registration", rgbd_.registration.table()},
+                         {"masking", rgbd_.masking.table()},
+                         {"depth_sensor", depth_sensor_.table()}});
   odometry_ = std::make_unique<TextureOdometry>(parameters_, depth_sensor_);
 
   ros::NodeHandle& handle = getMTPrivateNodeHandle();
@@ -65,7 +66,7 @@ void TextureOdometryNodelet::start() {
 }
 
 void TextureOdometryNodelet::applyParameters() {
-  rgbd_.checkTransports();
+  rgbd_.checkTexts();
   odometry_parameters_ = std::make_shared<TextureOdometryParameters>(parameters_);
   if (odometry_ != nullptr) odometry_->setParameters(parameters_, depth_sensor_);
   if (subscriber_ != nullptr) subscriber_->setParameters(rgbd_);

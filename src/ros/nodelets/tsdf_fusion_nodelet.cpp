@@ -98,7 +98,7 @@ void TsdfFusionNodelet::subscribe() {
 
 void TsdfFusionNodelet::applyParameters() {
   validateRange(parameters_.pipeline.preprocessing, parameters_.pipeline.depth_sensor);
-  parameters_.rgbd.checkTransports();
+  parameters_.rgbd.checkTexts();
   if (posed_subscriber_ != nullptr) posed_subscriber_->setParameters(parameters_.rgbd);
   if (map_ == nullptr) return;  // not started yet
   map_->locked([this](FusedMap& map) {

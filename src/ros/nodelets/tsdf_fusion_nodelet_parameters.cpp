@@ -28,6 +28,7 @@ std::vector<std::pair<std::string, ParameterTable>> TsdfFusionNodeletParameters:
   return {{"map", pipeline.map.table()},
           {"submaps", pipeline.submaps.table()},
           {"registration", rgbd.registration.table()},
+          {"masking", rgbd.masking.table()},
           {"depth_sensor", pipeline.depth_sensor.table()},
           {"preprocessing", pipeline.preprocessing.table()},
           {"model_view", pipeline.model_view.table()},

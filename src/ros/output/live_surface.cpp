@@ -146,10 +146,11 @@ void LiveSurface::keepPoints(const MeshChunk& chunk) {
   }
 }
 
-sensor_msgs::PointCloud2Ptr LiveSurface::points(const std_msgs::Header& header) const {
+boost::shared_ptr<SurfacePoints> LiveSurface::points(const std_msgs::Header& header,
+                                                     const Eigen::Vector3d& sensor_W) const {
   std::vector<const TriangleMesh*> meshes;
   for (const auto& entry : points_) meshes.push_back(&entry.second);
-  return boost::make_shared<sensor_msgs::PointCloud2>(makePointCloud(header, meshes));
+  return makeSurfacePoints(header, sensor_W, meshes);
 }
 
 }  // namespace depth_fusion

@@ -1,7 +1,6 @@
 // What viewers are shown of a map's surface while it grows.
 #pragma once
 
-#include <sensor_msgs/PointCloud2.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <map>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "depth_fusion/surface_mesh/mesh_chunks.h"
+#include "ros/conversions/surface_points.h"
 #include "ros/in_process/shared_map.h"
 #include "ros/output/byte_budget.h"
 #include "ros/output/live_surface_parameters.h"
@@ -42,8 +42,9 @@ class LiveSurface {
   void noteLost(const MarkerTraffic::Lost& lost);
   // Whether points() is another than at the last call.
   bool pointsChanged() { return std::exchange(points_changed_, false); }
-  // The points of all the chunks taken so far.
-  sensor_msgs::PointCloud2Ptr points(const std_msgs::Header& header) const;
+  // The points of all the chunks taken so far, as makeSurfacePoints gives them.
+  boost::shared_ptr<SurfacePoints> points(const std_msgs::Header& header,
+                                          const Eigen::Vector3d& sensor_W) const;
 
  private:
   // Whether the map was reset since the last time.

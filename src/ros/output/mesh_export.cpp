@@ -15,6 +15,7 @@
 #include "depth_fusion/submaps/world_mesh.h"
 #include "depth_fusion/surface_mesh/mesh_file.h"
 #include "depth_fusion/surface_mesh/mesh_finish.h"
+#include "ros/conversions/mesh_message.h"
 
 namespace depth_fusion {
 namespace {
@@ -121,24 +122,18 @@ void sayProgress(double done) {
   ROS_INFO_STREAM_THROTTLE(2.0, "export_mesh: " << std::lround(100.0 * done) << " %");
 }
 
-}  // namespace
-
-std::string absolutePath(const std::string& path) {
-  return fs::absolute(rosHome() / fs::path(expanded(path))).lexically_normal().string();
-}
-
-ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,
-                                const SurfaceMeshParameters& parameters) {
-  check(!request.path.empty(), "path is empty; give the mesh file's name, mesh.ply for instance");
-  const MeshFinish finish = finishOf(request);
-  const std::string path = absolutePath(request.path);
-  checkFolder(path);
-  const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format, UpAxis::kZ);
-  const bool lacks_color = request.color && !map.has_color;
+// The response lacks what is known of a file alone.
+ExportMesh::Response exportTo(MeshSink& target, SharedMap& map, const MeshFinish& finish, bool with_color,
+                              const SurfaceMeshParameters& parameters, const ExportProgress& progress) {
+  const bool lacks_color = with_color && !map.has_color;
   const std::string no_surface =
       std::string("the map has no surface yet; nothing was written") +
       (lacks_color ? std::string("; it will have no colour: ") + kStartWithColor : "");
-  CountingSink sink(*file, no_surface);
+  CountingSink sink(target, no_surface);
+  const auto tell = [&](double done) {
+    sayProgress(done);
+    if (progress) progress(done);
+  };
 
   const std::unique_ptr<WorldSnapshot> snapshot = snapshotOf(map, no_surface);
   const std::unique_ptr<ComputeContext> queue = map.compute->anotherQueue();
@@ -146,23 +141,49 @@ ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& reque
   batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);
   if (finish.changesMesh()) {
     TriangleMesh mesh;
-    exportWorldMesh(*queue, *snapshot, mesh, batches, request.color, sayProgress);
+    exportWorldMesh(*queue, *snapshot, mesh, batches, with_color, tell);
     const FinishedMesh result = finished(std::move(mesh), finish);
+    tell(1.0);
     sendMesh(result.mesh, sink);
     ROS_INFO_STREAM("export_mesh: " << result.remark);
   } else {
-    exportWorldMesh(*queue, *snapshot, sink, batches, request.color, sayProgress);
+    exportWorldMesh(*queue, *snapshot, sink, batches, with_color, tell);
   }
 
   ExportMesh::Response response;
   response.success = true;
-  response.message = path;
-  if (lacks_color)
-    response.message += std::string("; without colour, for the map has none: ") + kStartWithColor;
+  if (lacks_color) response.message = std::string("without colour, for the map has none: ") + kStartWithColor;
   response.vertices = sink.size().vertices;
   response.triangles = sink.size().triangles;
+  return response;
+}
+
+}  // namespace
+
+std::string absolutePath(const std::string& path) {
+  return fs::absolute(rosHome() / fs::path(expanded(path))).lexically_normal().string();
+}
+
+ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,
+                                const SurfaceMeshParameters& parameters, const ExportProgress& progress) {
+  check(!request.path.empty(), "path is empty; give the mesh file's name, mesh.ply for instance");
+  const MeshFinish finish = finishOf(request);
+  const std::string path = absolutePath(request.path);
+  checkFolder(path);
+  const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format, UpAxis::kZ);
+  ExportMesh::Response response = exportTo(*file, map, finish, request.color, parameters, progress);
+  response.message = path + (response.message.empty() ? "" : "; ") + response.message;
   response.bytes = fs::file_size(path);
   return response;
+}
+
+ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,
+                                const SurfaceMeshParameters& parameters, const ExportProgress& progress,
+                                MeshGeometry& mesh) {
+  mesh.header.stamp = ros::Time::now();
+  mesh.header.frame_id = map.frame_id;
+  MeshMessageSink sink(mesh);
+  return exportTo(sink, map, finishOf(request), request.color, parameters, progress);
 }
 
 }  // namespace depth_fusion

@@ -1,5 +1,8 @@
 #include "ros/output/surface_publisher.h"
 
+#include <pcl/point_types.h>
+#include <pcl_ros/point_cloud.h>
+
 #include <boost/make_shared.hpp>
 
 #include "ros/conversions/surface_messages.h"
@@ -23,9 +26,8 @@ bool isDue(ros::WallTime& last, double rate_hz) {
 SurfacePublisher::SurfacePublisher(ros::NodeHandle& handle) : traffic_(kSurfaceQueue) {
   // roscpp tells of a process's first subscriber to a topic; further ones need refresh_chunks.
   const auto note_viewer = [this](const ros::SingleSubscriberPublisher&) { has_late_viewer_ = true; };
-  marker_publisher_ =
-      handle.advertise<visualization_msgs::MarkerArray>("markers", kSurfaceQueue, note_viewer);
-  point_publisher_ = handle.advertise<sensor_msgs::PointCloud2>("points", 1, note_viewer);
+  marker_publisher_ = handle.advertise<visualization_msgs::MarkerArray>("markers", kSurfaceQueue, note_viewer);
+  point_publisher_ = handle.advertise<SurfacePoints>("points", 1, note_viewer);
   block_publisher_ = handle.advertise<visualization_msgs::Marker>(
       "blocks", 1, [this](const ros::SingleSubscriberPublisher&) { has_late_block_viewer_ = true; });
 }
@@ -42,7 +44,7 @@ void SurfacePublisher::update(const std::shared_ptr<SharedMap>& map, const LiveS
     }
     if (pointViewers() > 0 && budget_.left() > 0.0 && isDue(last_points_, points_rate_hz)) {
       const StageTimers::Scope timer(timers, "surface_mesh/points");
-      publishPoints(map->frame_id);
+      publishPoints(*map);
     }
   }
   if (map != nullptr && block_publisher_.getNumSubscribers() > 0 && budget_.left() > 0.0 &&
@@ -60,13 +62,14 @@ void SurfacePublisher::updateSurface(const std::shared_ptr<SharedMap>& map, cons
   if (!markers->markers.empty()) surface_->noteLost(traffic_.publish(marker_publisher_, markers));
 }
 
-void SurfacePublisher::publishPoints(const std::string& frame_id) {
+void SurfacePublisher::publishPoints(SharedMap& map) {
   if (!surface_->pointsChanged()) return;
   std_msgs::Header header;
   header.stamp = ros::Time::now();
-  header.frame_id = frame_id;
-  const sensor_msgs::PointCloud2Ptr points = surface_->points(header);
-  budget_.spend(points->data.size());
+  header.frame_id = map.frame_id;
+  const Eigen::Vector3d sensor_W = map.locked([](FusedMap& fused) { return fused.cameraPosition(); });
+  const boost::shared_ptr<SurfacePoints> points = surface_->points(header, sensor_W);
+  budget_.spend(points->size() * sizeof(pcl::PointXYZRGBNormal));
   point_publisher_.publish(points);
 }
 

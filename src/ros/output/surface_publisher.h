@@ -30,7 +30,7 @@ class SurfacePublisher {
  private:
   void updateSurface(const std::shared_ptr<SharedMap>& map, const LiveSurfaceParameters& live,
                      const SurfaceMeshParameters& mesh);
-  void publishPoints(const std::string& frame_id);
+  void publishPoints(SharedMap& map);
   void publishBlocks(SharedMap& map);
   // Whether they are others than at the last call, or somebody sees them for the first time.
   bool blocksChanged(SharedMap& map);

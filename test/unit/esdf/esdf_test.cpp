@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "depth_fusion/common/percentile.h"
+#include "depth_fusion/esdf/floor_grid.h"
 #include "support/esdf_scene.h"
 
 namespace depth_fusion {
@@ -67,7 +68,7 @@ TEST(Esdf, UpdatesOnlyWhereSomethingChanged) {
   EXPECT_TRUE(fused.esdf().update(timers).empty());
 }
 
-TEST(Esdf, WhatWasTakenAwayIsFree) {
+TEST(Esdf, WhatWasTakenAwayIsFreeInDistancesAndGridWithin30Frames) {
   const Eigen::Vector3d middle(0.0, 1.0, 0.6);
   std::vector<Primitive> solids = closedRoom();
   solids.push_back(box(middle, {0.3, 0.3, 0.3}, {}));
@@ -80,8 +81,13 @@ TEST(Esdf, WhatWasTakenAwayIsFree) {
   const EsdfGrid& grid = fused.esdf().grid();
   EXPECT_EQ(grid.stateAt(grid.cellAt(front)), CellState::kOccupied);
   EXPECT_FALSE(grid.distances({middle}).front().is_known);
+  FloorGridParameters floor;
+  floor.find_ground = false;
+  EXPECT_EQ(floorGridOf(grid, floor).at(front.head<2>()), kFloorOccupied);
   fused.show(closedRoom());
   look(30);
+  EXPECT_EQ(floorGridOf(grid, floor).at(front.head<2>()), kFloorFree);
+  EXPECT_EQ(floorGridOf(grid, floor).at(middle.head<2>()), kFloorFree);
   EXPECT_EQ(grid.stateAt(grid.cellAt(front)), CellState::kFree);
   for (const Eigen::Vector3d& p : {front, middle}) {
     const EsdfSample sample = grid.distances({p}).front();

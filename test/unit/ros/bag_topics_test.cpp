@@ -57,15 +57,19 @@ TEST(BagTopics, knows_the_depth_of_other_cameras) {
 }
 
 TEST(BagTopics, takes_nothing_else_for_depth) {
-  EXPECT_EQ(depthOf({image("/camera/depth/disparity"),
-                     image("/camera/ir/depth_like"),
-                     image("/camera/rgb/image_raw"),
-                     image("/camera/depth/infra1/image_rect_raw"),
-                     image("/camera/depth/confidence"),
-                     {"/camera/depth/points", "sensor_msgs/PointCloud2"}}),
+  EXPECT_EQ(depthOf({image("/camera/depth/disparity"), image("/camera/ir/depth_like"),
+                     image("/camera/rgb/image_raw"), image("/camera/depth/infra1/image_rect_raw"),
+                     image("/camera/depth/confidence")}),
             "none");
   EXPECT_EQ(depthOf({image("/first/depth/image")}), "/first/depth/image")
       << "'ir' counts as a whole word only";
+}
+
+TEST(BagTopics, takes_clouds_where_there_are_no_images_of_depth) {
+  const BagTopic cloud = {"/camera/points", "sensor_msgs/PointCloud2"};
+  EXPECT_EQ(depthOf({image("/camera/rgb/image_raw"), cloud}), cloud.name);
+  EXPECT_EQ(depthOf({cloud, compressed("/camera/depth/image_raw/compressed")}),
+            "/camera/depth/image_raw/compressed");
 }
 
 TEST(BagTopics, finds_the_colour_beside_the_depth) {

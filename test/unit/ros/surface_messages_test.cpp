@@ -1,7 +1,6 @@
 #include "ros/conversions/surface_messages.h"
 
 #include <gtest/gtest.h>
-#include <sensor_msgs/point_cloud2_iterator.h>
 
 #include "support/test_compute.h"
 
@@ -82,37 +81,6 @@ TEST(BlockMarker, hasACubeForEachBlock) {
   EXPECT_NEAR(marker.points[1].y, 0.2, 1e-6);
   EXPECT_NEAR(marker.points[1].z, 0.28, 1e-6);
   EXPECT_NEAR(marker.scale.x, 0.08, 0.01);
-}
-
-TEST(Thinned, keepsTheFirstVertexOfEachCube) {
-  TriangleMesh mesh;
-  for (const float x : {0.001f, 0.009f, -0.001f, 0.011f, 0.002f, -0.011f, 1234.0f, 1234.004f}) {
-    mesh.vertices.push_back({{x, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}});
-    mesh.colors.push_back({static_cast<uint8_t>(mesh.vertices.size()), 0, 0});
-  }
-  const TriangleMesh kept = thinned(mesh, 0.01f);
-  std::vector<int> numbers;
-  for (const MeshColor& color : kept.colors) numbers.push_back(color[0]);
-  EXPECT_EQ(numbers, (std::vector<int>{1, 3, 4, 6, 7}));
-  EXPECT_EQ(kept.vertices.size(), numbers.size());
-  EXPECT_EQ(thinned(mesh, 0.0f).vertices.size(), mesh.vertices.size());
-}
-
-TEST(PointCloud, holdsTheVerticesOfAllMeshes) {
-  const TriangleMesh colored = kite(true), plain = kite(false);
-  std_msgs::Header header;
-  header.frame_id = "map";
-  const sensor_msgs::PointCloud2 cloud = makePointCloud(header, {&colored, &plain});
-  ASSERT_EQ(cloud.width * cloud.height, 8u);
-  EXPECT_EQ(cloud.data.size(), 8u * cloud.point_step);
-  sensor_msgs::PointCloud2ConstIterator<float> z(cloud, "z"), normal_y(cloud, "normal_y");
-  sensor_msgs::PointCloud2ConstIterator<uint32_t> rgb(cloud, "rgb");
-  for (int i = 0; i < 4; ++i, ++z, ++normal_y, ++rgb) {
-    EXPECT_EQ(*z, -1.0f);
-    EXPECT_EQ(*normal_y, i % 3 == 1 ? 1.0f : 0.0f);
-    EXPECT_EQ(*rgb, (51u * i) << 16 | 0xff00u);
-  }
-  EXPECT_EQ(makePointCloud(header, {}).width, 0u);
 }
 
 }  // namespace
