@@ -13,7 +13,7 @@ unset PYTHONHOME PYTHONPATH
 # what draws plots, and what map files and servers need. The tests start a PostgreSQL server of their own; scripts/check
 # has use for clang-format 14 only, which is Debian 12's. The viewer is tested on a screen in memory.
 TOOL_PACKAGES=(build-essential cmake pocl-opencl-icd oclgrind python3-matplotlib liblmdb-dev libzstd-dev libpq-dev)
-CHECK_PACKAGES=(clang-format clang-tidy postgresql xvfb xauth libfcl-dev libompl-dev libassimp-dev libtinygltf-dev)
+CHECK_PACKAGES=(clang-format clang-tidy postgresql xvfb xauth libfcl-dev libompl-dev libtinygltf-dev)
 ROS_TOOL_PACKAGES=(python3-rosdep python3-catkin-lint)
 # Debian carries ROS 1 itself, under its own names.
 DEBIAN_PACKAGES=(
@@ -27,7 +27,7 @@ DEBIAN_PACKAGES=(
   libstd-srvs-dev libros-rosgraph-msgs-dev
   python3-std-srvs python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs
   librostest-dev python3-rostest python3-roslaunch python3-rosbag python3-rosservice python3-rostopic rosbash rosout rospack-tools rviz
-  libeigen3-dev libceres-dev liboctomap-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev libpcl-dev
+  libeigen3-dev libceres-dev liboctomap-dev libopencv-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libmeshoptimizer-dev libpcl-dev libassimp-dev
   ocl-icd-opencl-dev opencl-headers libbenchmark-dev
 )
 

@@ -48,7 +48,7 @@ class SurfaceMeshNodelet : public StageNodelet {
 SurfaceMeshNodelet::~SurfaceMeshNodelet() { stopServing(); }
 
 void SurfaceMeshNodelet::start() {
-  loadParameters(parameters_.table());
+  loadParameters(parameters_.table(), parameters_.stages());
   if (parameters_.map.empty()) parameters_.map = getNodeHandle().resolveName("tsdf_fusion");
   advertise();
   update_timer_ = callbacks_.createWallTimer(getMTPrivateNodeHandle(),
@@ -119,8 +119,8 @@ ExportMesh::Response SurfaceMeshNodelet::exportNow(const ExportMesh::Request& re
     const StageTimers::Scope timer(timers, "surface_mesh/export");
     const std::shared_ptr<SharedMap> map = findFusionMap();
     check(map != nullptr, noMapReason());
-    SurfaceMeshParameters parameters;
-    betweenFrames([&] { parameters = parameters_.mesh; });
+    MeshExportParameters parameters;
+    betweenFrames([&] { parameters = {parameters_.mesh, parameters_.texturing}; });
     response = exportMesh(*map, request, parameters);
   }
   recordTimings(timers);

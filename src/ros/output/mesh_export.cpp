@@ -15,6 +15,8 @@
 #include "depth_fusion/submaps/world_mesh.h"
 #include "depth_fusion/surface_mesh/mesh_file.h"
 #include "depth_fusion/surface_mesh/mesh_finish.h"
+#include "depth_fusion/texturing/textured_mesh.h"
+#include "ros/output/textured_export.h"
 
 namespace depth_fusion {
 namespace {
@@ -110,16 +112,93 @@ void checkFolder(const std::string& path) {
   check(!fs::is_directory(path), path + " is a folder; give the name of a file");
 }
 
-std::unique_ptr<WorldSnapshot> snapshotOf(SharedMap& map, const std::string& no_surface) {
-  return map.locked([&](FusedMap& fused) {
-    check(!fused.isEmpty(), no_surface);
-    return std::make_unique<WorldSnapshot>(fused.submaps());
-  });
-}
-
 void sayProgress(double done) {
   ROS_INFO_STREAM_THROTTLE(2.0, "export_mesh: " << std::lround(100.0 * done) << " %");
 }
+
+class SurfaceExport {
+ public:
+  // Throws Error for a request that cannot be met.
+  SurfaceExport(SharedMap& map, const ExportMesh::Request& request, const MeshExportParameters& parameters)
+      : map_(map), request_(request), parameters_(parameters), finish_(finishOf(request)) {
+    check(!request.path.empty(), "path is empty; give the mesh file's name, mesh.ply for instance");
+    path_ = absolutePath(request.path);
+    checkFolder(path_);
+    check(!request.texture || map.has_color,
+          std::string("the map keeps no pictures that a texture could be made of; ") + kStartWithColor);
+    if (request.texture)
+      checkTexturedPath(path_, request.format);
+    else
+      file_ = createMeshFile(path_, request.format, UpAxis::kZ);
+    lacks_color_ = request.color && !map.has_color;
+    no_surface_ = std::string("the map has no surface yet; nothing was written") +
+                  (lacks_color_ ? std::string("; it will have no colour: ") + kStartWithColor : "");
+  }
+
+  ExportMesh::Response run() {
+    const auto [snapshot, generation] = map_.locked([this](FusedMap& fused) {
+      check(!fused.isEmpty(), no_surface_);
+      return std::make_pair(std::make_unique<WorldSnapshot>(fused.submaps()), fused.map().generation());
+    });
+    ExportMesh::Response response;
+    response.success = true;
+    response.message = path_;
+    const MeshSize size = request_.texture        ? writeTextured(*snapshot, generation, response.message)
+                          : finish_.changesMesh() ? writeChanged(*snapshot)
+                                                  : writeStreamed(*snapshot);
+    if (lacks_color_)
+      response.message += std::string("; without colour, for the map has none: ") + kStartWithColor;
+    response.vertices = size.vertices;
+    response.triangles = size.triangles;
+    response.bytes = fs::file_size(path_);
+    return response;
+  }
+
+ private:
+  MeshSize writeStreamed(WorldSnapshot& snapshot) {
+    CountingSink sink(*file_, no_surface_);
+    extract(snapshot, sink);
+    return sink.size();
+  }
+
+  MeshSize writeChanged(WorldSnapshot& snapshot) {
+    CountingSink sink(*file_, no_surface_);
+    sendMesh(finishedMesh(snapshot), sink);
+    return sink.size();
+  }
+
+  // Appends to what there is to say.
+  MeshSize writeTextured(WorldSnapshot& snapshot, uint32_t generation, std::string& message) {
+    const TexturedExport textured = exportTextured(path_, request_.format, finishedMesh(snapshot),
+                                                   map_.keyframesOf(generation), parameters_.texturing);
+    message += "; " + textured.remark;
+    return textured.size;
+  }
+
+  TriangleMesh finishedMesh(WorldSnapshot& snapshot) {
+    TriangleMesh mesh;
+    extract(snapshot, mesh);
+    check(!mesh.triangles.empty(), no_surface_);
+    FinishedMesh result = finished(std::move(mesh), finish_);
+    if (!result.remark.empty()) ROS_INFO_STREAM("export_mesh: " << result.remark);
+    return std::move(result.mesh);
+  }
+
+  void extract(WorldSnapshot& snapshot, MeshSink& sink) {
+    const std::unique_ptr<ComputeContext> queue = map_.compute->anotherQueue();
+    SurfaceMeshParameters batches = parameters_.mesh;
+    batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);
+    exportWorldMesh(*queue, snapshot, sink, batches, request_.color || request_.texture, sayProgress);
+  }
+
+  SharedMap& map_;
+  const ExportMesh::Request& request_;
+  const MeshExportParameters& parameters_;
+  const MeshFinish finish_;
+  std::string path_, no_surface_;
+  std::unique_ptr<MeshSink> file_;  // null: the texture's files
+  bool lacks_color_ = false;
+};
 
 }  // namespace
 
@@ -128,41 +207,8 @@ std::string absolutePath(const std::string& path) {
 }
 
 ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,
-                                const SurfaceMeshParameters& parameters) {
-  check(!request.path.empty(), "path is empty; give the mesh file's name, mesh.ply for instance");
-  const MeshFinish finish = finishOf(request);
-  const std::string path = absolutePath(request.path);
-  checkFolder(path);
-  const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format, UpAxis::kZ);
-  const bool lacks_color = request.color && !map.has_color;
-  const std::string no_surface =
-      std::string("the map has no surface yet; nothing was written") +
-      (lacks_color ? std::string("; it will have no colour: ") + kStartWithColor : "");
-  CountingSink sink(*file, no_surface);
-
-  const std::unique_ptr<WorldSnapshot> snapshot = snapshotOf(map, no_surface);
-  const std::unique_ptr<ComputeContext> queue = map.compute->anotherQueue();
-  SurfaceMeshParameters batches = parameters;
-  batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);
-  if (finish.changesMesh()) {
-    TriangleMesh mesh;
-    exportWorldMesh(*queue, *snapshot, mesh, batches, request.color, sayProgress);
-    const FinishedMesh result = finished(std::move(mesh), finish);
-    sendMesh(result.mesh, sink);
-    ROS_INFO_STREAM("export_mesh: " << result.remark);
-  } else {
-    exportWorldMesh(*queue, *snapshot, sink, batches, request.color, sayProgress);
-  }
-
-  ExportMesh::Response response;
-  response.success = true;
-  response.message = path;
-  if (lacks_color)
-    response.message += std::string("; without colour, for the map has none: ") + kStartWithColor;
-  response.vertices = sink.size().vertices;
-  response.triangles = sink.size().triangles;
-  response.bytes = fs::file_size(path);
-  return response;
+                                const MeshExportParameters& parameters) {
+  return SurfaceExport(map, request, parameters).run();
 }
 
 }  // namespace depth_fusion

@@ -17,12 +17,14 @@ namespace {
 // What the mesh looks like from there.
 std::vector<SurfaceColor> colorsSeen(const TexturedMesh& mesh, const CameraIntrinsics& camera,
                                      const Pose& T_W_C) {
-  constexpr int kStride_px = 3;
+  constexpr double kMostPoints = 30000.0;  // for pictures of any size
   constexpr double kFullWeight = 16.0;
+  const int stride_px = std::max(
+      3, static_cast<int>(std::sqrt(static_cast<double>(camera.width) * camera.height / kMostPoints)));
   const TexturedPicture seen = renderTexturedMesh(mesh, camera, T_W_C);
   std::vector<SurfaceColor> colors;
-  for (int v = 0; v < camera.height; v += kStride_px) {
-    for (int u = 0; u < camera.width; u += kStride_px) {
+  for (int v = 0; v < camera.height; v += stride_px) {
+    for (int u = 0; u < camera.width; u += stride_px) {
       const double z = static_cast<double>(seen.depth.at<float>(v, u));
       if (z == 0.0) continue;
       const cv::Vec3b& bgr = seen.color.at<cv::Vec3b>(v, u);

@@ -39,7 +39,9 @@ class Scene {
   pcl::visualization::PCLVisualizer& viewer() { return viewer_; }
 
  private:
+  vtkActor& actorOf(const std::string& shape);
   vtkProperty& propertyOf(const std::string& shape);
+  void showSurface(const std::string& name, const SceneOptions& options);
   vtkRenderer& renderer() { return *viewer_.getRendererCollection()->GetFirstRenderer(); }
   void show(const Ruler& ruler);
   // All that is not the model.

@@ -1,0 +1,22 @@
+// The service export_mesh, with pictures on the surface.
+#pragma once
+
+#include <string>
+
+#include "depth_fusion/relocalisation/keyframe.h"
+#include "depth_fusion/surface_mesh/triangle_mesh.h"
+#include "depth_fusion/texturing/texturing_parameters.h"
+
+namespace depth_fusion {
+
+struct TexturedExport {
+  MeshSize size;
+  std::string remark;  // what there is to say of it
+};
+
+// Writes the mesh, with z up, and the keyframes' pictures on it. Throws Error if no keyframe has one, if the
+// files cannot be written, and when ROS shuts down.
+TexturedExport exportTextured(const std::string& path, const std::string& format, const TriangleMesh& mesh,
+                              const Keyframes& keyframes, const TexturingParameters& parameters);
+
+}  // namespace depth_fusion
