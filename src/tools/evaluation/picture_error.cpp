@@ -39,13 +39,17 @@ std::vector<SurfaceColor> colorsSeen(const TexturedMesh& mesh, const CameraIntri
 
 Pose fittedPose(const TexturedMesh& mesh, const TexturingView& view) {
   constexpr int kRounds = 5;
+  constexpr double kConverged_px = 0.1;
   ColorImage image{view.camera, {}};
   cv::cvtColor(imageOf(view), image.bgra, cv::COLOR_BGR2BGRA);
   Pose T_C_W = view.T_W_C.inverse();
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<SurfaceColor> surface = colorsSeen(mesh, view.camera, T_C_W.inverse());
     const Eigen::Array3d gain = exposureGain(surface, image, T_C_W).value_or(Eigen::Array3d::Ones());
-    T_C_W = orthonormalized(alignColor(surface, image, gain, T_C_W));
+    const Pose aligned = orthonormalized(alignColor(surface, image, gain, T_C_W));
+    const double moved_px = twistFromPose(aligned * T_C_W.inverse()).norm() * view.camera.fx;
+    T_C_W = aligned;
+    if (moved_px < kConverged_px) break;
   }
   return T_C_W.inverse();
 }
