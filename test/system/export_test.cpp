@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 
-#include "depth_fusion/surface_mesh/mesh_file.h"
 #include "depth_fusion/surface_mesh/ply.h"
 #include "support/apps.h"
 
@@ -44,7 +43,7 @@ class Export : public testing::Test {
 };
 
 TEST_F(Export, picturesOfAMapsKeyframesAreItsTexture) {
-  for (const std::string format : {"glb", "obj", "ply"}) {
+  for (const std::string format : {"glb", "obj"}) {
     const std::string path = in("textured." + format);
     const AppRun run = runApp("texture", {in("room.map"), "--output", path});
     ASSERT_EQ(run.status, 0) << run.errors;
@@ -80,8 +79,8 @@ TEST_F(Export, whatHasNoPicturesIsNoTexture) {
   expectRefused(runApp("texture", {"--output", in("room.glb")}), {"a map or --input"});
 }
 
-TEST_F(Export, aMapIsWrittenInEveryFormat) {
-  for (const std::string& format : meshFormats()) {
+TEST_F(Export, aMapIsWrittenAsItWasReconstructed) {
+  for (const std::string format : {"ply", "dae"}) {
     const AppRun run = runApp("export_mesh", {in("room.map"), "--output", in("mesh." + format)});
     EXPECT_EQ(run.status, 0) << run.errors;
     EXPECT_GT(std::filesystem::file_size(in("mesh." + format)), 10000u) << format;
@@ -153,7 +152,9 @@ TEST(ObjectExport, anObjectComesOffItsGroundClosedAndTrueToScale) {
   EXPECT_NEAR(volume_m3, 4.18879 * std::pow(kRadius_m, 3), 0.1 * 4.18879 * std::pow(kRadius_m, 3));
   for (size_t i = 0; i < ball.vertices.size(); ++i) {
     const Eigen::Vector3f p_B = ball.vertices[i].position_W - Eigen::Vector3f(0.0f, 0.0f, kRadius_m);
-    if (p_B.z() > 0.0f) EXPECT_NEAR(p_B.norm(), kRadius_m, 0.0015f);
+    if (p_B.z() > 0.0f) {
+      EXPECT_NEAR(p_B.norm(), kRadius_m, 0.0015f);
+    }
     EXPECT_EQ(ball.colors[i], (MeshColor{200, 0, 0}));
   }
 }

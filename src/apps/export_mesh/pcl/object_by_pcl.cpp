@@ -36,10 +36,12 @@ double edgeOf(const TriangleMesh& mesh) {
   return edges_m[edges_m.size() / 2];
 }
 
+// How much larger than the mesh the octree's cube is: where it was not seen, the surface bulges.
+constexpr double kScale = 2.0;
+
 // Of the octree, so that its cells are as large as the mesh's edges.
 int depthFor(const TriangleMesh& mesh) {
   constexpr int kLeast = 5, kMost = 11;
-  constexpr double kScale = 1.25;  // of the octree's cube, to the mesh
   Eigen::AlignedBox3f box;
   for (const MeshVertex& vertex : mesh.vertices) box.extend(vertex.position_W);
   const double cells = kScale * static_cast<double>(box.sizes().maxCoeff()) / edgeOf(mesh);
@@ -87,6 +89,7 @@ TriangleMesh closedModel(const TriangleMesh& mesh) {
   const auto points = pointsOf(mesh);
   pcl::Poisson<pcl::PointNormal> poisson;
   poisson.setInputCloud(points);
+  poisson.setScale(static_cast<float>(kScale));
   poisson.setDepth(depthFor(mesh));
   poisson.setSolverDivide(std::min(depthFor(mesh), 8));
   poisson.setIsoDivide(std::min(depthFor(mesh), 8));
