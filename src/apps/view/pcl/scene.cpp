@@ -1,6 +1,7 @@
 #include "apps/view/pcl/scene.h"
 
 #include <vtkCamera.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWorldPointPicker.h>
@@ -36,8 +37,7 @@ void Scene::show(const ViewedModel& model, const SceneOptions& options, const Ru
   if (options.paint == "texture") {
     for (size_t page = 0; page < model.pages.size(); ++page) {
       const std::string name = kModel + std::to_string(page);
-      viewer_.addModelFromPolyData(pageData(model, page), name);
-      actorOf(name).SetTexture(textureOf(model.pages[page]));
+      addTextured(name, *pageData(model, page), *textureOf(model.pages[page]));
       showSurface(name, options);
     }
   } else {
@@ -127,10 +127,19 @@ void Scene::showOthers(bool visible) {
   }
 }
 
-vtkActor& Scene::actorOf(const std::string& shape) {
-  return *vtkActor::SafeDownCast(viewer_.getShapeActorMap()->at(shape));
+// PCL's own actors, vtkLODActor, draw no textures.
+void Scene::addTextured(const std::string& name, vtkPolyData& data, vtkTexture& texture) {
+  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+  mapper->SetInputData(&data);
+  const auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->SetTexture(&texture);
+  renderer().AddActor(actor);
+  (*viewer_.getShapeActorMap())[name] = actor;
 }
 
-vtkProperty& Scene::propertyOf(const std::string& shape) { return *actorOf(shape).GetProperty(); }
+vtkProperty& Scene::propertyOf(const std::string& shape) {
+  return *vtkActor::SafeDownCast(viewer_.getShapeActorMap()->at(shape))->GetProperty();
+}
 
 }  // namespace depth_fusion

@@ -14,9 +14,8 @@
 namespace depth_fusion {
 namespace {
 
-constexpr unsigned int kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
-                                aiProcess_GenSmoothNormals | aiProcess_PreTransformVertices |
-                                aiProcess_SortByPType;
+constexpr unsigned int kSteps = aiProcess_Triangulate | aiProcess_GenSmoothNormals |
+                                aiProcess_PreTransformVertices | aiProcess_SortByPType;
 
 // glTF's colours are linear in the light.
 uint8_t byteOf(float value, bool is_linear) {
