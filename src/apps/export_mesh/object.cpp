@@ -29,7 +29,7 @@ TriangleMesh cropped(const TriangleMesh& mesh, const std::array<float, 6>& crop_
 TriangleMesh withoutGround(const TriangleMesh& mesh, float above_m) {
   const Eigen::Vector4f ground = groundOf(mesh);
   return trianglesWhere(mesh, [&](const MeshTriangle& t) {
-    return std::any_of(t.begin(), t.end(), [&](uint32_t i) {
+    return std::all_of(t.begin(), t.end(), [&](uint32_t i) {
       return ground.dot(mesh.vertices[i].position_W.homogeneous()) > above_m;
     });
   });
