@@ -1,5 +1,8 @@
 // Writes the surface of a map that was saved, or a mesh, in another format.
+#include <algorithm>
+
 #include "apps/command_line.h"
+#include "apps/export_mesh/object.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
 #include "depth_fusion/submaps/map_file.h"
 #include "depth_fusion/submaps/world_mesh.h"
@@ -14,17 +17,23 @@ namespace {
 constexpr char kDescription[] =
     "Writes the surface of a map that was saved, or a binary PLY mesh, as PLY, OBJ, STL, glTF binary "
     "(.glb),\n"
-    "COLLADA (.dae) or point cloud (.pcd), in metres. Islands can be removed, holes closed, and triangles\n"
-    "saved.\n\n"
+    "COLLADA (.dae) or point cloud (.pcd), in metres. It can be cropped, taken off the ground and closed,\n"
+    "islands can be removed, holes closed, and triangles saved.\n\n"
     "Examples:\n"
     "  export_mesh room.map --output room.glb\n"
     "  export_mesh out/mesh.ply --output room.dae --min-island 0.2 --max-hole 0.1 --share 0.1\n"
-    "  export_mesh out/mesh.ply --output room.stl --max-error 0.002\n";
+    "  export_mesh out/mesh.ply --output room.stl --max-error 0.002\n"
+    "  export_mesh out/mesh.ply --output figure.stl --crop=-0.1,-0.1,0.2,0.1,0.1,0.5 --remove-ground 0.002 "
+    "--close\n";
 
 struct Arguments {
   std::string input, output, device;
   bool z_up = false;
+  std::vector<float> crop_m;
+  ObjectOptions object;
   MeshFinish finish;
+
+  bool changesMesh() const { return finish.changesMesh() || object.changesMesh(); }
 };
 
 void addOptions(CLI::App& app, Arguments& arguments) {
@@ -33,6 +42,15 @@ void addOptions(CLI::App& app, Arguments& arguments) {
                  "a map's file, postgresql://USER@HOST/DATABASE#NAME, or a binary PLY file (*.ply)")
       ->required();
   app.add_option("-o,--output", arguments.output, "the mesh to write; its ending is the format")->required();
+  app.add_option("--crop", arguments.crop_m,
+                 "least x, y and z, then most: what reaches out of this box goes, metres")
+      ->delimiter(',')
+      ->expected(6);
+  app.add_option("--remove-ground", arguments.object.ground_m,
+                 "the largest plane goes, and what is below it or less than this above it, metres")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--close", arguments.object.closed,
+               "a closed model: what was not seen is filled in smoothly (Poisson reconstruction)");
   app.add_option("--min-island", finish.min_island_m,
                  "parts of the surface that are smaller are removed, metres across")
       ->check(CLI::Range(0.0, 1e6));
@@ -56,26 +74,31 @@ void exportMap(const Arguments& arguments, MeshSink& sink) {
   map.exportMesh(sink);
 }
 
+// The surface, changed as it is wanted; `remark` says how.
+TriangleMesh changedMesh(const Arguments& arguments, std::string& remark) {
+  TriangleMesh mesh;
+  if (endingOf(arguments.input) == "ply")
+    mesh = readPly(arguments.input);
+  else
+    exportMap(arguments, mesh);
+  FinishedMesh result = finished(objectOf(std::move(mesh), arguments.object, remark), arguments.finish);
+  if (!result.remark.empty()) remark += (remark.empty() ? "" : ", ") + result.remark;
+  return std::move(result.mesh);
+}
+
 void exportMesh(const Arguments& arguments) {
   checkFinish(arguments.finish);
   const auto file = createMeshFile(arguments.output, "", arguments.z_up ? UpAxis::kZ : UpAxis::kMinusY);
-  const bool is_mesh = endingOf(arguments.input) == "ply";
-  if (!is_mesh && !arguments.finish.changesMesh()) {
+  if (endingOf(arguments.input) != "ply" && !arguments.changesMesh()) {
     exportMap(arguments, *file);
     std::cout << arguments.output << ": written\n";
     return;
   }
-  TriangleMesh mesh;
-  if (is_mesh) {
-    mesh = readPly(arguments.input);
-  } else {
-    exportMap(arguments, mesh);
-  }
-  const FinishedMesh result = finished(std::move(mesh), arguments.finish);
-  sendMesh(result.mesh, *file);
-  std::cout << arguments.output << ": " << result.mesh.vertices.size() << " vertices, "
-            << result.mesh.triangles.size() << " triangles"
-            << (result.remark.empty() ? "" : "; " + result.remark) << "\n";
+  std::string remark;
+  const TriangleMesh mesh = changedMesh(arguments, remark);
+  sendMesh(mesh, *file);
+  std::cout << arguments.output << ": " << mesh.vertices.size() << " vertices, " << mesh.triangles.size()
+            << " triangles" << (remark.empty() ? "" : "; " + remark) << "\n";
 }
 
 }  // namespace
@@ -88,6 +111,10 @@ int main(int argc, char** argv) {
   addOptions(app, arguments);
   return runApp(app, [&] {
     app.parse(argc, argv);
+    if (!arguments.crop_m.empty()) {
+      arguments.object.crop_m.emplace();
+      std::copy(arguments.crop_m.begin(), arguments.crop_m.end(), arguments.object.crop_m->begin());
+    }
     exportMesh(arguments);
     return 0;
   });

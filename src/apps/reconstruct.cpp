@@ -79,7 +79,9 @@ void addOptions(CLI::App& app, Arguments& arguments, RunOptions& options) {
   app.add_flag("--report", options.report,
                "report.html, too: pictures, the model to be turned in a browser, tracking, times, errors "
                "where the recording has the truth, and what to try; see docs/viewing.md");
-  app.add_flag("--no-mesh", options.no_mesh, "track and fuse only, for timing");
+  auto* view = app.add_flag("--view", options.view,
+                            "a window that shows the scan while it grows, and stays; see docs/viewing.md");
+  app.add_flag("--no-mesh", options.no_mesh, "track and fuse only, for timing")->excludes(view);
   app.add_flag("--print-params", arguments.print_parameters,
                "list every parameter with its value, range and meaning");
 }

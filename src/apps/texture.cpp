@@ -14,11 +14,10 @@ namespace depth_fusion {
 namespace {
 
 constexpr char kDescription[] =
-    "Puts pictures on a surface: a mesh with a texture, as OBJ (with MTL and PNG) or glTF binary (.glb). "
-    "The\n"
-    "pictures are the keyframes of a map that was saved with colour, or the frames of a recording whose "
-    "mesh\n"
-    "and trajectory are known.\n\n"
+    "Puts pictures on a surface: a mesh with a texture, as glTF binary (.glb), OBJ (with MTL and PNG) or "
+    "PLY\n"
+    "(with PNG). The pictures are the keyframes of a map that was saved with colour, or the frames of a\n"
+    "recording whose mesh and trajectory are known.\n\n"
     "Examples:\n"
     "  texture room.map --output room.glb\n"
     "  texture --input desk --reconstruction out --output desk.obj\n"
@@ -42,10 +41,11 @@ void addOptions(CLI::App& app, Options& options) {
   recording->excludes(map);
   app.add_option("--reconstruction", options.reconstruction,
                  "what reconstruct wrote of it: mesh.ply and trajectory.txt are taken from this folder");
-  app.add_option("--mesh", input.mesh, "binary PLY file, in place of that mesh");
+  app.add_option("--mesh", input.mesh, "binary PLY file, in place of that mesh, or of the map's");
   app.add_option("--trajectory", input.trajectory,
                  "poses of the depth camera (TUM format, or a folder that holds poses), in place of those");
-  app.add_option("-o,--output", input.output, "the mesh to write, MESH.obj or MESH.glb")->required();
+  app.add_option("-o,--output", input.output, "the mesh to write, MESH.glb, MESH.obj or MESH.ply")
+      ->required();
   app.add_option("--color-camera", input.color_camera_file,
                  "camera file of a colour camera beside the depth camera, as of reconstruct");
   app.add_option("--camera", input.recording_arguments.camera_file,

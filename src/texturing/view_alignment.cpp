@@ -41,6 +41,7 @@ class ViewAlignment {
     for (const ChosenView& view : views) priors_C_W_.push_back(view.view.T_W_C.inverse());
     poses_C_W_ = priors_C_W_;
     inParallel([&](size_t i) { seen_[i] = seenBy(mesh, views_[i].view); });
+    decode();
   }
 
   void round() {
@@ -82,6 +83,22 @@ class ViewAlignment {
     });
   }
 
+  // As many images as the memory for them holds; the others are decoded whenever they are needed.
+  void decode() {
+    constexpr size_t kBytes = size_t{256} << 20;
+    size_t count = 0, bytes = 0;
+    for (; count < views_.size(); ++count) {
+      const CameraIntrinsics& camera = views_[count].view.camera;
+      bytes += 3 * static_cast<size_t>(camera.width) * static_cast<size_t>(camera.height);
+      if (bytes > kBytes) break;
+    }
+    decoded_.resize(count);
+    inParallel([&](size_t i) {
+      if (i < count) decoded_[i] = imageOf(views_[i].view);
+    });
+  }
+  cv::Mat image(size_t i) const { return i < decoded_.size() ? decoded_[i] : imageOf(views_[i].view); }
+
   std::vector<uint32_t> seenBy(const TriangleMesh& mesh, const TexturingView& view) const {
     const MeshInView in_view(mesh, view, parameters_.hidden_ratio);
     const Pose T_C_W = view.T_W_C.inverse();
@@ -100,7 +117,7 @@ class ViewAlignment {
   template <class Action>
   void forEachSample(size_t i, const Action& action) const {
     const ChosenView& chosen = views_[i];
-    const cv::Mat image = imageOf(chosen.view);
+    const cv::Mat image = this->image(i);
     for (const uint32_t point : seen_[i]) {
       const Eigen::Vector3f uvz = pixelOf(points_[point].p_W, poses_C_W_[i], chosen.view.camera);
       if (!isInside(uvz, chosen.view.camera, kAlignedMargin_px)) continue;
@@ -133,7 +150,7 @@ class ViewAlignment {
         surface.push_back({points_[point].p_W.cast<double>(), colors[point].mean(), kPointWeight});
     }
     ColorImage image{views_[i].view.camera, {}};
-    cv::cvtColor(imageOf(views_[i].view), image.bgra, cv::COLOR_BGR2BGRA);
+    cv::cvtColor(this->image(i), image.bgra, cv::COLOR_BGR2BGRA);
     views_[i].gain = exposureGain(surface, image, poses_C_W_[i]).value_or(views_[i].gain);
     poses_C_W_[i] = alignColor(surface, image, views_[i].gain, priors_C_W_[i], poses_C_W_[i]);
   }
@@ -150,6 +167,7 @@ class ViewAlignment {
   std::vector<ChosenView>& views_;
   const std::vector<PointOnMesh> points_;
   std::vector<std::vector<uint32_t>> seen_;  // points, by each view
+  std::vector<cv::Mat> decoded_;             // the first views' images
   std::vector<Pose> priors_C_W_, poses_C_W_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "depth_fusion/surface_mesh/ply.h"
 #include "depth_fusion/surface_mesh/simplification.h"
+#include "support/file_bytes.h"
 #include "support/nodelet_graph.h"
 #include "support/offered_map.h"
 #include "support/temporary_folder.h"
@@ -33,6 +34,13 @@ class MeshExport : public testing::Test {
     service.request.format = format;
     service.request.color = color;
     service.request.simplification = simplification;
+    EXPECT_TRUE(client_.call(service));
+    return service.response;
+  }
+  ExportMesh::Response callForTexture(const std::string& path) {
+    ExportMesh service;
+    service.request.path = path;
+    service.request.texture = true;
     EXPECT_TRUE(client_.call(service));
     return service.response;
   }
@@ -124,6 +132,15 @@ TEST_F(MeshExport, refusesWhatItCannotDo) {
   expectRefusal(call("mesh.ply", 1.5), {"simplification", "1.5"});
   expectRefusal(call("mesh.ply", -0.1), {"simplification", "-0.1"});
   expectRefusal(call("/dev/full"), {"/dev/full"});
+  expectRefusal(callForTexture("mesh.glb"), {"no pictures", "color:=true"});
+}
+
+TEST_F(MeshExport, refusesTexturesThatItCannotMake) {
+  OfferedMap map(graph_.resolve("tsdf_fusion"), true);
+  load();
+  map.show(ball({0.0, 0.0, 0.0}, 0.08));
+  expectRefusal(callForTexture("mesh.glb"), {"none of the map's 0 keyframes"});
+  expectRefusal(callForTexture("mesh.stl"), {"mesh.stl", ".obj, .glb or .ply"});
 }
 
 TEST_F(MeshExport, refusesWithoutAMap) {
@@ -163,6 +180,29 @@ TEST_F(MeshExport, answersWhileDataFlows) {
   user.join();
   EXPECT_GT(fused_meanwhile, 0u);
   for (const auto& status : map_status.all()) EXPECT_TRUE(status->fused) << status->reason;
+}
+
+// The pictures are those of the keyframes of a map that is being made.
+TEST_F(MeshExport, putsTheKeyframesPicturesOnTheSurface) {
+  graph_.handle().setParam("map/color", true);
+  graph_.handle().setParam("map/voxel_size_m", 0.03);
+  graph_.handle().setParam("texturing/alignment_rounds", 2);
+  Listener<MapStatus> map_status(graph_.handle(), "tsdf_fusion/status");
+  graph_.loadTracking();
+  load();
+  FakeCamera camera(graph_.handle());
+  ASSERT_TRUE(camera.awaitSubscribers());
+  for (const RgbdFrame& frame : simulatedFrames(smallRoom(3))) {
+    camera.publish(frame);
+    ASSERT_NE(map_status.awaitStamp(camera.headerOf(frame).stamp), nullptr);
+  }
+  ExportMesh::Response response = callForTexture("room.glb");
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(response.message.find(ros_home_ / "room.glb"), 0u) << response.message;
+  EXPECT_NE(response.message.find("pictures show"), std::string::npos) << response.message;
+  EXPECT_GT(response.triangles, 1000u);
+  EXPECT_EQ(response.bytes, std::filesystem::file_size(ros_home_ / "room.glb"));
+  EXPECT_NE(fileBytes(ros_home_ / "room.glb").find("image/png"), std::string::npos);
 }
 
 TEST(PathsOfMeshes, MayHaveTheHomeVariablesAndBlanks) {

@@ -8,6 +8,7 @@
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/surface_mesh/mesh_file.h"
 #include "depth_fusion/surface_mesh/ply.h"
+#include "depth_fusion/texturing/textured_mesh.h"
 #include "support/apps.h"
 
 namespace depth_fusion {
@@ -62,7 +63,7 @@ void expectRedAndGreen(const cv::Mat& image) {
 bool isGrey(const cv::Vec3b& bgr) { return std::abs(bgr[2] - bgr[1]) < 40 && bgr[2] > 80; }
 
 TEST_F(View, ShowsMeshesOfEveryFormat) {
-  for (const std::string format : {"ply", "obj", "stl"}) {
+  for (const std::string format : {"ply", "obj", "glb", "dae", "stl"}) {
     const std::string path = folder_ / ("square." + format);
     sendMesh(redAndGreen(), *createMeshFile(path));
     const cv::Mat image = viewed(path);
@@ -74,6 +75,32 @@ TEST_F(View, ShowsMeshesOfEveryFormat) {
     }
     EXPECT_LT(image.at<cv::Vec3b>(5, 5)[1], 60) << "the background";
   }
+}
+
+// One face in each colour, on two pages.
+TEST_F(View, ShowsTextures) {
+  const TriangleMesh square = redAndGreen();
+  TexturedMesh textured;
+  for (const MeshTriangle& t : square.triangles) {
+    const auto first = static_cast<uint32_t>(textured.mesh.vertices.size());
+    for (const uint32_t vertex : t) textured.mesh.vertices.push_back(square.vertices[vertex]);
+    textured.mesh.triangles.push_back({first, first + 1, first + 2});
+    textured.places.insert(textured.places.end(), {{1.0f, 1.0f}, {6.0f, 1.0f}, {1.0f, 6.0f}});
+  }
+  textured.page_ends = {2, 4};
+  textured.pages = {cv::Mat(8, 8, CV_8UC3, cv::Scalar(10, 10, 220)),
+                    cv::Mat(8, 8, CV_8UC3, cv::Scalar(10, 200, 10))};
+  for (const std::string format : {"glb", "obj"}) {
+    SCOPED_TRACE(format);
+    writeTexturedMesh(folder_ / ("textured." + format), textured);
+    expectRedAndGreen(viewed(folder_ / ("textured." + format)));
+  }
+  textured.mesh.triangles.resize(2);
+  textured.page_ends.resize(1);
+  textured.pages.resize(1);
+  writeTexturedMesh(folder_ / "textured.ply", textured);
+  const auto red = viewed(folder_ / "textured.ply").at<cv::Vec3b>(120, 100);
+  EXPECT_GT(red[2], red[1] + 100) << red;
 }
 
 TEST_F(View, ShowsPoints) {
@@ -127,9 +154,42 @@ TEST_F(View, ShowsTheCertaintyOfMaps) {
   EXPECT_GT(cv::countNonZero(saturated), 3000);
 }
 
+// A piece of the simulated room's wall is as it should be, the same 5 cm before it is red.
+TEST_F(View, ShowsErrors) {
+  ASSERT_EQ(runApp("simulate", {"--output", folder_ / "wall", "--scene", "wall", "--frames", "1"}).status, 0);
+  ASSERT_EQ(runApp("reconstruct",
+                   {"--input", folder_ / "wall", "--output", folder_ / "out", "--voxel-size", "0.02"})
+                .status,
+            0);
+  const auto paintedAt = [&](float nearer_m) {
+    TriangleMesh mesh = readPly(folder_ / "out/mesh.ply");
+    for (MeshVertex& vertex : mesh.vertices) vertex.position_W.z() -= nearer_m;
+    writePly(folder_ / "wall.ply", mesh);
+    return viewed(folder_ / "wall.ply", {"--view", "front", "--paint", "error", "--truth", folder_ / "wall",
+                                         "--full-scale", "0.05"})
+        .at<cv::Vec3b>(120, 160);
+  };
+  const cv::Vec3b right = paintedAt(0.0f), wrong = paintedAt(0.05f);
+  EXPECT_GT(right[0], right[2]) << right << " blue";
+  EXPECT_LT(right[2], 100) << right << " blue";
+  EXPECT_GT(wrong[2], wrong[0] + 30) << wrong << " red";
+  EXPECT_NE(view(folder_ / "wall.ply", {"--paint", "error"}).errors.find("--truth"), std::string::npos);
+}
+
+// The window is there until it is closed, and the run does not wait for it.
+TEST_F(View, TheScanIsShownWhileItGrows) {
+  ASSERT_EQ(runApp("simulate", {"--output", folder_ / "room", "--frames", "4"}).status, 0);
+  const AppRun run =
+      runApp("reconstruct",
+             {"--input", folder_ / "room", "--output", folder_ / "out", "--voxel-size", "0.02", "--view"},
+             {"xvfb-run", "-a"});
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_GT(readPly(folder_ / "out/mesh.ply").triangles.size(), 1000u);
+}
+
 TEST_F(View, SaysWhatIsWrong) {
   writeText(folder_ / "broken.obj", "no mesh\n");
-  for (const std::string name : {"missing.ply", "missing.map", "broken.obj", "broken.pcd"}) {
+  for (const std::string name : {"missing.ply", "missing.map", "broken.obj", "broken.glb", "broken.pcd"}) {
     const AppRun run = view(folder_ / name, {});
     EXPECT_EQ(run.status, 1) << name;
     EXPECT_NE(run.errors.find(name), std::string::npos) << name << ": " << run.errors;

@@ -20,13 +20,15 @@ struct TexturedMesh {
   std::vector<cv::Mat> pages;     // CV_8UC3, BGR
 };
 
-// Throws Error unless the path ends in .obj or .glb and lies in a folder that is there.
-void checkTexturedPath(const std::string& path);
+// Throws Error unless the path ends in .obj, .glb or .ply, or the format is one of these, and the path lies
+// in a folder that is there.
+void checkTexturedPath(const std::string& path, const std::string& format = "");
 
-// Writes MESH.obj, with MESH.mtl and MESH_0.png, MESH_1.png, ... beside it, or MESH.glb, which holds all.
-// The mesh's own file comes last, and only if all of them could be written. Throws Error for another ending,
-// and if a file cannot be written.
-void writeTexturedMesh(const std::string& path, const TexturedMesh& mesh, UpAxis up = UpAxis::kMinusY);
+// Writes MESH.glb, which holds all, or MESH.obj, with MESH.mtl, or MESH.ply, with MESH_0.png, MESH_1.png, ...
+// beside them; an empty format is the path's ending. The mesh's own file comes last, and only if all of them
+// could be written. Throws Error as checkTexturedPath() does, and if a file cannot be written.
+void writeTexturedMesh(const std::string& path, const TexturedMesh& mesh, UpAxis up = UpAxis::kMinusY,
+                       const std::string& format = "");
 
 struct TexturedPicture {
   cv::Mat color;  // CV_8UC3, BGR, black where there is no surface

@@ -15,14 +15,11 @@ void saveMap(ReconstructionPipeline& pipeline, MapSaver& saver) {
   std::cout << saved.place << ": " << saved.blocks << " blocks, " << saved.bytes << " bytes" << std::endl;
 }
 
-void writeMesh(const std::string& path, const SurfaceMeshParameters& parameters, ComputeContext& compute,
-               ReconstructionPipeline& pipeline) {
+void sayMesh(const RunOptions& options, ComputeContext& compute, ReconstructionPipeline& pipeline) {
   const StageTimers::Scope timer(pipeline.timers(), "surface_mesh");
-  PlyWriter writer(path);
-  WorldSnapshot world(pipeline.submaps());
-  const MeshStatistics mesh = exportWorldMesh(compute, world, writer, parameters, world.hasColor());
-  std::cout << path << ": " << mesh.size.vertices << " vertices, " << mesh.size.triangles << " triangles"
-            << std::endl;
+  const MeshStatistics mesh = writeMesh(options, compute, pipeline);
+  std::cout << options.output << "/mesh.ply: " << mesh.size.vertices << " vertices, " << mesh.size.triangles
+            << " triangles" << std::endl;
 }
 
 void attempt(RunLog& log, const std::function<void()>& action) {
@@ -35,15 +32,20 @@ void attempt(RunLog& log, const std::function<void()>& action) {
 
 }  // namespace
 
+MeshStatistics writeMesh(const RunOptions& options, ComputeContext& compute,
+                         ReconstructionPipeline& pipeline) {
+  PlyWriter writer(options.output + "/mesh.ply");
+  WorldSnapshot world(pipeline.submaps());
+  return exportWorldMesh(compute, world, writer, options.parameters.surface_mesh, world.hasColor());
+}
+
 void writeResults(const RunOptions& options, ComputeContext& compute, ReconstructionPipeline& pipeline,
                   MapSaver* saver, RunLog& log) {
   const std::string folder = options.output + "/";
   const size_t tracking_peak_rss_bytes = peakRssBytes();
   attempt(log, [&] { writeTrajectory(folder + "trajectory.txt", log.trajectory()); });
   if (saver != nullptr && log.counts().tracked > 0) attempt(log, [&] { saveMap(pipeline, *saver); });
-  if (!options.no_mesh) {
-    attempt(log, [&] { writeMesh(folder + "mesh.ply", options.parameters.surface_mesh, compute, pipeline); });
-  }
+  if (!options.no_mesh) attempt(log, [&] { sayMesh(options, compute, pipeline); });
   attempt(log, [&] {
     writeReport(folder + "report.json", log.input(), compute, pipeline, log.counts(),
                 tracking_peak_rss_bytes);

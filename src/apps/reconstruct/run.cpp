@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "apps/reconstruct/growing_view.h"
 #include "apps/reconstruct/loop_results.h"
 #include "apps/reconstruct/results.h"
 #include "apps/reconstruct/run_log.h"
@@ -56,6 +57,7 @@ class Run {
   CameraIntrinsics camera_;
   std::unique_ptr<ReconstructionPipeline> pipeline_;
   std::unique_ptr<MapSaver> saver_;  // null: the map is saved nowhere
+  std::optional<GrowingView> view_;
 };
 
 Run::Run(const RunOptions& options) : options_(options), log_(options), compute_(options.device) {
@@ -70,6 +72,7 @@ Run::Run(const RunOptions& options) : options_(options), log_(options), compute_
   check(!error && access(options.output.c_str(), W_OK) == 0,
         "the output folder " + options.output + " cannot be written" +
             (error ? " (" + error.message() + ")" : "") + "; choose another with --output");
+  if (options.view) view_.emplace(options);
 }
 
 void Run::openRecording() {
@@ -101,6 +104,7 @@ void Run::fuseRecording() {
     const FrameResult result = fuse(*frame, next ? &*next : nullptr);
     log_.note(*frame, result, mapBytes(pipeline_->map().parameters(), pipeline_->submaps().blockCount()));
     if (const auto depth = pipeline_->depth()) log_.noteNoise(options_.parameters.depth_sensor, *depth);
+    if (view_) view_->update(compute_, *pipeline_, log_);
     showProgress(false);
     frame = std::move(next);
   }

@@ -21,6 +21,7 @@ struct RunOptions {
   size_t max_frames = 0;             // 0 = all
   bool no_mesh = false;
   bool report = false;          // report.html is written
+  bool view = false;            // a window shows the scan while it grows
   bool self_calibrate = false;  // from the recording, before it is fused
   bool single_pass = false;     // loops are not sought
   RecordingOptions recording;

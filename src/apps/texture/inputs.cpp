@@ -6,6 +6,7 @@
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/registration/registered_recording.h"
 #include "depth_fusion/surface_mesh/ply.h"
+#include "depth_fusion/texturing/keyframe_views.h"
 #include "pipeline/open_map.h"
 #include "ros/bags/open_recording.h"
 
@@ -14,23 +15,19 @@ namespace {
 
 constexpr double kMaxPoseGap_s = 0.1;
 
-TexturingView viewOfColor(const KeyframeColor& color, const Pose& T_W_D) {
-  return {color.jpeg, color.camera, T_W_D * color.T_C_D.inverse()};
-}
-
 TextureInput readMap(const TextureArguments& arguments) {
   const auto database = openDatabase(arguments.map, DatabaseAccess::kRead);
   ComputeContext compute(arguments.device);
   OpenMap map(compute, {}, *database);
-  TextureInput input;
-  map.exportMesh(input.mesh);
-  for (const KeyframePtr& keyframe : map.loaded().keyframes) {
-    if (!keyframe->color.jpeg.empty()) input.views.push_back(viewOfColor(keyframe->color, keyframe->T_W_D));
-  }
+  TextureInput input{{}, viewsOf(map.loaded().keyframes)};
   check(!input.views.empty(),
         map.name() + ": none of its " + std::to_string(map.loaded().keyframes.size()) +
             " keyframes has a picture; save it with colour (reconstruct --color --map, or "
             "color:=true), or give the recording");
+  if (arguments.mesh.empty())
+    map.exportMesh(input.mesh);
+  else
+    input.mesh = readPly(arguments.mesh);
   return input;
 }
 
@@ -65,7 +62,7 @@ TextureInput readRecording(const TextureArguments& arguments) {
     const KeyframeColor color = T_W_D ? colorOf(*frame) : KeyframeColor();
     if (T_W_D && color.jpeg.empty()) problem = colorProblem(*frame);
     if (color.jpeg.empty()) continue;
-    input.views.push_back(viewOfColor(color, frame->y_mirrored ? mirroredY(*T_W_D) : *T_W_D));
+    input.views.push_back(viewOf(color, frame->y_mirrored ? mirroredY(*T_W_D) : *T_W_D));
   }
   check(!input.views.empty(), namesOf(arguments.recording) + ": none of its " + std::to_string(frames) +
                                   " frames has a picture and a pose in " + arguments.trajectory +

@@ -2,25 +2,41 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
-#include "apps/view/obj_file.h"
 #include "apps/view/stored_model.h"
 #include "depth_fusion/common/error.h"
 #include "depth_fusion/recording/trajectory_file.h"
 #include "depth_fusion/surface_mesh/ply.h"
+#include "tools/evaluation/mesh_error.h"
+#include "tools/evaluation/trajectory_error.h"
+#include "tools/simulation/scene_library.h"
 
 namespace depth_fusion {
 namespace {
 
 constexpr MeshColor kGrey = {200, 212, 225};
 
-TriangleMesh readPlyOrPoints(const std::string& path) {
-  try {
-    return readPly(path);
-  } catch (const Error&) {
-    return readByPcl(path);
+// Whether its header names the file of a texture.
+bool hasTexture(const std::string& ply) {
+  std::ifstream file(ply);
+  for (std::string line; std::getline(file, line) && line.rfind("end_header", 0) != 0;) {
+    if (line.rfind("comment TextureFile", 0) == 0) return true;
   }
+  return false;
+}
+
+ViewedModel readPlyOrPoints(const std::string& path) {
+  if (hasTexture(path)) return readByAssimp(path);
+  ViewedModel model;
+  try {
+    model.mesh = readPly(path);
+  } catch (const Error&) {
+    model.mesh = readByPcl(path);
+  }
+  return model;
 }
 
 ViewedModel readFolder(const std::string& folder) {
@@ -33,13 +49,6 @@ ViewedModel readFolder(const std::string& folder) {
   return model;
 }
 
-std::string endingOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
-
 MeshColor rainbow(float value) {
   cv::Mat color(1, 1, CV_8UC1, cv::Scalar(std::clamp(255.0f * value, 0.0f, 255.0f)));
   cv::applyColorMap(color, color, cv::COLORMAP_TURBO);
@@ -47,40 +56,59 @@ MeshColor rainbow(float value) {
   return {bgr[2], bgr[1], bgr[0]};
 }
 
+ViewedModel readAny(const ModelSource& source) {
+  const std::string ending = endingOf(source.path);
+  if (std::filesystem::is_directory(source.path)) return readFolder(source.path);
+  if (ending == "ply") return readPlyOrPoints(source.path);
+  if (ending == "obj" || ending == "glb" || ending == "gltf" || ending == "dae")
+    return readByAssimp(source.path);
+  if (ending != "stl" && ending != "pcd")
+    return readStoredModel(source.path, source.with_certainty, source.device);
+  ViewedModel model;
+  model.mesh = readByPcl(source.path);
+  return model;
+}
+
+// The model lies where the sensor's way fits the true one best, or where the first camera was.
+void measureErrors(const ModelSource& source, ViewedModel& model) {
+  constexpr size_t kFewestPoses = 3;
+  const Scene scene = makeScene(findSceneName(source.truth + "/")).surface;
+  const Trajectory truth = readPoses(source.truth);
+  check(!truth.empty(), source.truth + " has no true poses");
+  const Pose T_W_M =
+      model.way.size() < kFewestPoses ? truth.front().T_W_D : compareTrajectories(model.way, truth).T_W_E;
+  TriangleMesh painted = model.mesh;
+  paintError(painted, T_W_M, scene, static_cast<double>(source.full_scale_m));
+  model.errors = std::move(painted.colors);
+}
+
 }  // namespace
 
-ViewedModel readModel(const std::string& path, bool with_certainty, const std::string& device) {
-  const std::string ending = endingOf(path);
-  if (std::filesystem::is_directory(path)) return readFolder(path);
-  ViewedModel model;
-  if (ending == ".ply") {
-    model.mesh = readPlyOrPoints(path);
-  } else if (ending == ".obj") {
-    model.mesh = readObj(path);
-  } else if (ending == ".stl" || ending == ".pcd") {
-    model.mesh = readByPcl(path);
-  } else {
-    return readStoredModel(path, with_certainty, device);
-  }
-  check(!model.mesh.vertices.empty(), path + " holds nothing that could be shown");
+ViewedModel readModel(const ModelSource& source) {
+  ViewedModel model = readAny(source);
+  check(!model.mesh.vertices.empty(), source.path + " holds nothing that could be shown");
+  if (!source.truth.empty()) measureErrors(source, model);
   return model;
 }
 
 const std::vector<std::string>& paintNames() {
-  static const std::vector<std::string> names = {"colors", "shaded", "certainty"};
+  static const std::vector<std::string> names = {"texture", "colors", "shaded", "certainty", "error"};
   return names;
 }
 
 std::vector<std::string> paintsOf(const ViewedModel& model) {
   std::vector<std::string> paints;
+  if (!model.pages.empty()) paints.push_back("texture");
   if (!model.mesh.colors.empty()) paints.push_back("colors");
   paints.push_back("shaded");
   if (!model.certainties.empty()) paints.push_back("certainty");
+  if (!model.errors.empty()) paints.push_back("error");
   return paints;
 }
 
 std::vector<MeshColor> colorsOf(const ViewedModel& model, const std::string& paint) {
   if (paint == "colors") return model.mesh.colors;
+  if (paint == "error") return model.errors;
   std::vector<MeshColor> colors(model.mesh.vertices.size(), kGrey);
   if (paint != "certainty") return colors;
   constexpr int kSteps = 255;

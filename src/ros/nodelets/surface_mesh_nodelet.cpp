@@ -40,7 +40,7 @@ class SurfaceMeshNodelet : public StageNodelet {
 SurfaceMeshNodelet::~SurfaceMeshNodelet() { stopServing(); }
 
 void SurfaceMeshNodelet::start() {
-  loadParameters(parameters_.table());
+  loadParameters(parameters_.table(), parameters_.stages());
   if (parameters_.map.empty()) parameters_.map = getNodeHandle().resolveName("tsdf_fusion");
   advertise();
   update_timer_ = callbacks_.createWallTimer(getMTPrivateNodeHandle(),
@@ -92,7 +92,7 @@ MeshExportServer::Source SurfaceMeshNodelet::exportSource() {
   MeshExportServer::Source source;
   source.map = findFusionMap();
   check(source.map != nullptr, noMapReason());
-  betweenFrames([&] { source.parameters = parameters_.mesh; });
+  betweenFrames([&] { source.parameters = {parameters_.mesh, parameters_.texturing}; });
   return source;
 }
 

@@ -10,4 +10,8 @@ ParameterTable SurfaceMeshNodeletParameters::table() {
   return joined({mesh.table(), live.table(), own});
 }
 
+std::vector<std::pair<std::string, ParameterTable>> SurfaceMeshNodeletParameters::stages() {
+  return {{"texturing", texturing.table()}};
+}
+
 }  // namespace depth_fusion

@@ -15,7 +15,9 @@
 #include "depth_fusion/submaps/world_mesh.h"
 #include "depth_fusion/surface_mesh/mesh_file.h"
 #include "depth_fusion/surface_mesh/mesh_finish.h"
+#include "depth_fusion/texturing/textured_mesh.h"
 #include "ros/conversions/mesh_message.h"
+#include "ros/output/textured_export.h"
 
 namespace depth_fusion {
 namespace {
@@ -111,52 +113,121 @@ void checkFolder(const std::string& path) {
   check(!fs::is_directory(path), path + " is a folder; give the name of a file");
 }
 
-std::unique_ptr<WorldSnapshot> snapshotOf(SharedMap& map, const std::string& no_surface) {
-  return map.locked([&](FusedMap& fused) {
-    check(!fused.isEmpty(), no_surface);
-    return std::make_unique<WorldSnapshot>(fused.submaps());
-  });
-}
-
 void sayProgress(double done) {
   ROS_INFO_STREAM_THROTTLE(2.0, "export_mesh: " << std::lround(100.0 * done) << " %");
 }
 
-// The response lacks what is known of a file alone.
-ExportMesh::Response exportTo(MeshSink& target, SharedMap& map, const MeshFinish& finish, bool with_color,
-                              const SurfaceMeshParameters& parameters, const ExportProgress& progress) {
-  const bool lacks_color = with_color && !map.has_color;
-  const std::string no_surface =
-      std::string("the map has no surface yet; nothing was written") +
-      (lacks_color ? std::string("; it will have no colour: ") + kStartWithColor : "");
-  CountingSink sink(target, no_surface);
-  const auto tell = [&](double done) {
-    sayProgress(done);
-    if (progress) progress(done);
-  };
-
-  const std::unique_ptr<WorldSnapshot> snapshot = snapshotOf(map, no_surface);
-  const std::unique_ptr<ComputeContext> queue = map.compute->anotherQueue();
-  SurfaceMeshParameters batches = parameters;
-  batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);
-  if (finish.changesMesh()) {
-    TriangleMesh mesh;
-    exportWorldMesh(*queue, *snapshot, mesh, batches, with_color, tell);
-    const FinishedMesh result = finished(std::move(mesh), finish);
-    tell(1.0);
-    sendMesh(result.mesh, sink);
-    ROS_INFO_STREAM("export_mesh: " << result.remark);
-  } else {
-    exportWorldMesh(*queue, *snapshot, sink, batches, with_color, tell);
+// To a file, or to the message if that is not null.
+class SurfaceExport {
+ public:
+  // Throws Error for a request that cannot be met.
+  SurfaceExport(SharedMap& map, const ExportMesh::Request& request, const MeshExportParameters& parameters,
+                const ExportProgress& progress, MeshGeometry* message)
+      : map_(map),
+        request_(request),
+        parameters_(parameters),
+        progress_(progress),
+        finish_(finishOf(request)),
+        lacks_color_(request.color && !map.has_color),
+        no_surface_(std::string("the map has no surface yet; nothing was written") +
+                    (lacks_color_ ? std::string("; it will have no colour: ") + kStartWithColor : "")) {
+    check(!request.texture || map.has_color,
+          std::string("the map keeps no pictures that a texture could be made of; ") + kStartWithColor);
+    message == nullptr ? openFile() : openMessage(*message);
   }
 
-  ExportMesh::Response response;
-  response.success = true;
-  if (lacks_color) response.message = std::string("without colour, for the map has none: ") + kStartWithColor;
-  response.vertices = sink.size().vertices;
-  response.triangles = sink.size().triangles;
-  return response;
-}
+  ExportMesh::Response run() {
+    const auto [snapshot, generation] = map_.locked([this](FusedMap& fused) {
+      check(!fused.isEmpty(), no_surface_);
+      return std::make_pair(std::make_unique<WorldSnapshot>(fused.submaps()), fused.map().generation());
+    });
+    ExportMesh::Response response;
+    response.success = true;
+    const MeshSize size = request_.texture        ? writeTextured(*snapshot, generation)
+                          : finish_.changesMesh() ? writeChanged(*snapshot)
+                                                  : writeStreamed(*snapshot);
+    if (lacks_color_) remark(std::string("without colour, for the map has none: ") + kStartWithColor);
+    response.message = remarks_;
+    response.vertices = size.vertices;
+    response.triangles = size.triangles;
+    response.bytes = path_.empty() ? 0 : fs::file_size(path_);
+    return response;
+  }
+
+ private:
+  void openFile() {
+    check(!request_.path.empty(), "path is empty; give the mesh file's name, mesh.ply for instance");
+    path_ = absolutePath(request_.path);
+    checkFolder(path_);
+    if (request_.texture)
+      checkTexturedPath(path_, request_.format);
+    else
+      sink_ = createMeshFile(path_, request_.format, UpAxis::kZ);
+    remark(path_);
+  }
+
+  void openMessage(MeshGeometry& message) {
+    check(!request_.texture, "no message has a texture; give a path");
+    message.header.stamp = ros::Time::now();
+    message.header.frame_id = map_.frame_id;
+    sink_ = std::make_unique<MeshMessageSink>(message);
+  }
+
+  void remark(const std::string& text) { remarks_ += (remarks_.empty() ? "" : "; ") + text; }
+
+  void tell(double done) const {
+    sayProgress(done);
+    if (progress_) progress_(done);
+  }
+
+  MeshSize writeStreamed(WorldSnapshot& snapshot) {
+    CountingSink sink(*sink_, no_surface_);
+    extract(snapshot, sink);
+    return sink.size();
+  }
+
+  MeshSize writeChanged(WorldSnapshot& snapshot) {
+    CountingSink sink(*sink_, no_surface_);
+    sendMesh(finishedMesh(snapshot), sink);
+    return sink.size();
+  }
+
+  MeshSize writeTextured(WorldSnapshot& snapshot, uint32_t generation) {
+    const TexturedExport textured =
+        exportTextured(path_, request_.format, finishedMesh(snapshot), map_.keyframesOf(generation),
+                       parameters_.texturing, [this] { tell(1.0); });
+    remark(textured.remark);
+    return textured.size;
+  }
+
+  TriangleMesh finishedMesh(WorldSnapshot& snapshot) {
+    TriangleMesh mesh;
+    extract(snapshot, mesh);
+    check(!mesh.triangles.empty(), no_surface_);
+    FinishedMesh result = finished(std::move(mesh), finish_);
+    tell(1.0);
+    if (!result.remark.empty()) ROS_INFO_STREAM("export_mesh: " << result.remark);
+    return std::move(result.mesh);
+  }
+
+  void extract(WorldSnapshot& snapshot, MeshSink& sink) {
+    const std::unique_ptr<ComputeContext> queue = map_.compute->anotherQueue();
+    SurfaceMeshParameters batches = parameters_.mesh;
+    batches.max_batch_blocks = std::min(batches.max_batch_blocks, kBatchBlocks);
+    exportWorldMesh(*queue, snapshot, sink, batches, request_.color || request_.texture,
+                    [this](double done) { tell(done); });
+  }
+
+  SharedMap& map_;
+  const ExportMesh::Request& request_;
+  const MeshExportParameters& parameters_;
+  const ExportProgress& progress_;
+  const MeshFinish finish_;
+  const bool lacks_color_;
+  const std::string no_surface_;
+  std::string path_, remarks_;      // the path is empty where a message is written
+  std::unique_ptr<MeshSink> sink_;  // null: the texture's files
+};
 
 }  // namespace
 
@@ -165,25 +236,9 @@ std::string absolutePath(const std::string& path) {
 }
 
 ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,
-                                const SurfaceMeshParameters& parameters, const ExportProgress& progress) {
-  check(!request.path.empty(), "path is empty; give the mesh file's name, mesh.ply for instance");
-  const MeshFinish finish = finishOf(request);
-  const std::string path = absolutePath(request.path);
-  checkFolder(path);
-  const std::unique_ptr<MeshSink> file = createMeshFile(path, request.format, UpAxis::kZ);
-  ExportMesh::Response response = exportTo(*file, map, finish, request.color, parameters, progress);
-  response.message = path + (response.message.empty() ? "" : "; ") + response.message;
-  response.bytes = fs::file_size(path);
-  return response;
-}
-
-ExportMesh::Response exportMesh(SharedMap& map, const ExportMesh::Request& request,
-                                const SurfaceMeshParameters& parameters, const ExportProgress& progress,
-                                MeshGeometry& mesh) {
-  mesh.header.stamp = ros::Time::now();
-  mesh.header.frame_id = map.frame_id;
-  MeshMessageSink sink(mesh);
-  return exportTo(sink, map, finishOf(request), request.color, parameters, progress);
+                                const MeshExportParameters& parameters, const ExportProgress& progress,
+                                MeshGeometry* message) {
+  return SurfaceExport(map, request, parameters, progress, message).run();
 }
 
 }  // namespace depth_fusion

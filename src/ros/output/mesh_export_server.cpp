@@ -17,6 +17,7 @@ ExportMesh::Request requestOf(const ExportMeshGoal& goal) {
   request.max_error = goal.max_error;
   request.min_island = goal.min_island;
   request.max_hole = goal.max_hole;
+  request.texture = goal.texture;
   return request;
 }
 
@@ -77,8 +78,7 @@ ExportMesh::Response MeshExportServer::exportNow(const ExportMesh::Request& requ
   {
     const StageTimers::Scope timer(timers, "surface_mesh/export");
     const Source source = source_();
-    response = mesh == nullptr ? exportMesh(*source.map, request, source.parameters, progress)
-                               : exportMesh(*source.map, request, source.parameters, progress, *mesh);
+    response = exportMesh(*source.map, request, source.parameters, progress, mesh);
   }
   record_timings_(timers);
   return response;

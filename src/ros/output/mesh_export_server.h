@@ -23,7 +23,7 @@ class MeshExportServer {
   // What is exported now, and how.
   struct Source {
     std::shared_ptr<SharedMap> map;
-    SurfaceMeshParameters parameters;
+    MeshExportParameters parameters;
   };
 
   // Serves them in the handle's namespace, each in threads of its own, so that goals are cancelled while the

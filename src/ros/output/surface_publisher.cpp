@@ -26,7 +26,8 @@ bool isDue(ros::WallTime& last, double rate_hz) {
 SurfacePublisher::SurfacePublisher(ros::NodeHandle& handle) : traffic_(kSurfaceQueue) {
   // roscpp tells of a process's first subscriber to a topic; further ones need refresh_chunks.
   const auto note_viewer = [this](const ros::SingleSubscriberPublisher&) { has_late_viewer_ = true; };
-  marker_publisher_ = handle.advertise<visualization_msgs::MarkerArray>("markers", kSurfaceQueue, note_viewer);
+  marker_publisher_ =
+      handle.advertise<visualization_msgs::MarkerArray>("markers", kSurfaceQueue, note_viewer);
   point_publisher_ = handle.advertise<SurfacePoints>("points", 1, note_viewer);
   block_publisher_ = handle.advertise<visualization_msgs::Marker>(
       "blocks", 1, [this](const ros::SingleSubscriberPublisher&) { has_late_block_viewer_ = true; });

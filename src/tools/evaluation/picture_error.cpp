@@ -17,12 +17,14 @@ namespace {
 // What the mesh looks like from there.
 std::vector<SurfaceColor> colorsSeen(const TexturedMesh& mesh, const CameraIntrinsics& camera,
                                      const Pose& T_W_C) {
-  constexpr int kStride_px = 3;
+  constexpr double kMostPoints = 30000.0;  // for pictures of any size
   constexpr double kFullWeight = 16.0;
+  const int stride_px = std::max(
+      3, static_cast<int>(std::sqrt(static_cast<double>(camera.width) * camera.height / kMostPoints)));
   const TexturedPicture seen = renderTexturedMesh(mesh, camera, T_W_C);
   std::vector<SurfaceColor> colors;
-  for (int v = 0; v < camera.height; v += kStride_px) {
-    for (int u = 0; u < camera.width; u += kStride_px) {
+  for (int v = 0; v < camera.height; v += stride_px) {
+    for (int u = 0; u < camera.width; u += stride_px) {
       const double z = static_cast<double>(seen.depth.at<float>(v, u));
       if (z == 0.0) continue;
       const cv::Vec3b& bgr = seen.color.at<cv::Vec3b>(v, u);
@@ -37,13 +39,17 @@ std::vector<SurfaceColor> colorsSeen(const TexturedMesh& mesh, const CameraIntri
 
 Pose fittedPose(const TexturedMesh& mesh, const TexturingView& view) {
   constexpr int kRounds = 5;
+  constexpr double kConverged_px = 0.1;
   ColorImage image{view.camera, {}};
   cv::cvtColor(imageOf(view), image.bgra, cv::COLOR_BGR2BGRA);
   Pose T_C_W = view.T_W_C.inverse();
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<SurfaceColor> surface = colorsSeen(mesh, view.camera, T_C_W.inverse());
     const Eigen::Array3d gain = exposureGain(surface, image, T_C_W).value_or(Eigen::Array3d::Ones());
-    T_C_W = orthonormalized(alignColor(surface, image, gain, T_C_W));
+    const Pose aligned = orthonormalized(alignColor(surface, image, gain, T_C_W));
+    const double moved_px = twistFromPose(aligned * T_C_W.inverse()).norm() * view.camera.fx;
+    T_C_W = aligned;
+    if (moved_px < kConverged_px) break;
   }
   return T_C_W.inverse();
 }

@@ -12,6 +12,7 @@
 #include "depth_fusion/esdf/floor_grid_parameters.h"
 #include "depth_fusion/loops/loop_parameters.h"
 #include "depth_fusion/pipeline/pipeline_parameters.h"
+#include "depth_fusion/texturing/texturing_parameters.h"
 
 namespace depth_fusion {
 namespace {
@@ -46,6 +47,7 @@ TEST(ParameterRows, EveryMemberOfAStageHasOne) {
   expectRows<ColorFusionParameters>();
   expectRows<ModelViewParameters>();
   expectRows<SurfaceMeshParameters>();
+  expectRows<TexturingParameters>();
   expectRows<EsdfParameters>();
   expectRows<FloorGridParameters>();
 }

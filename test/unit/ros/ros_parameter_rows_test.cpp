@@ -51,7 +51,7 @@ TEST(ParameterRows, EveryMemberOfTheNodeletsHasOne) {
       fieldCount<TsdfFusionNodeletParameters>() - 5 + fieldCount<TsdfFusionParameters>() + rgbdRows() +
       fieldCount<ModelPictureParameters>() + fieldCount<MapKeeperParameters>() +
       fieldCount<MapRefinerParameters>());
-  expectRows<SurfaceMeshNodeletParameters>(fieldCount<SurfaceMeshNodeletParameters>() - 2 +
+  expectRows<SurfaceMeshNodeletParameters>(fieldCount<SurfaceMeshNodeletParameters>() - 3 +
                                            fieldCount<SurfaceMeshParameters>() +
                                            fieldCount<LiveSurfaceParameters>());
   expectRows<NavigationNodeletParameters>(fieldCount<NavigationNodeletParameters>() - 2 +

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -13,6 +15,7 @@
 #include "depth_fusion/surface_mesh/mesh_file.h"
 #include "depth_fusion/texturing/textured_mesh.h"
 #include "support/expect_error.h"
+#include "support/file_bytes.h"
 #include "support/temporary_folder.h"
 
 #ifdef DEPTH_FUSION_TESTS_HAVE_PCL
@@ -185,10 +188,70 @@ TEST(TexturedMeshFile, assimpFindsEachFacesPicture) {
   }
 }
 
+// Where a PLY file's faces have their places in pictures.
+struct PlyFace {
+  uint8_t corners;
+  std::array<int32_t, 3> vertices;
+  uint8_t numbers;
+  std::array<float, 6> shares;
+  int32_t page;
+} __attribute__((packed));
+
+TEST(TexturedMeshFile, plyNamesEachFacesPicture) {
+  const TemporaryFolder folder;
+  const TexturedMesh textured = texturedPyramid();
+  writeTexturedMesh(folder / "pyramid.ply", textured);
+  const std::string bytes = fileBytes(folder / "pyramid.ply");
+  const size_t begin = bytes.find("end_header\n") + 11;
+  const std::string header = bytes.substr(0, begin);
+  for (const char* line : {"comment TextureFile pyramid_0.png\n", "comment TextureFile pyramid_1.png\n",
+                           "property list uchar float texcoord\nproperty int texnumber\n"})
+    EXPECT_NE(header.find(line), std::string::npos) << line << header;
+  ASSERT_EQ(bytes.size(), begin + 12 * sizeof(MeshVertex) + 4 * sizeof(PlyFace));
+  for (size_t i = 0; i < 4; ++i) {
+    PlyFace face{};
+    std::memcpy(&face, &bytes[begin + 12 * sizeof(MeshVertex) + i * sizeof(PlyFace)], sizeof(face));
+    EXPECT_EQ(face.corners, 3);
+    EXPECT_EQ(face.numbers, 6);
+    const int32_t page = face.page;
+    EXPECT_EQ(page, static_cast<int32_t>(i / 2));
+    const cv::Mat picture = cv::imread(folder / ("pyramid_" + std::to_string(page) + ".png"));
+    ASSERT_EQ(picture.size(), textured.pages[i / 2].size());
+    for (size_t k = 0; k < 3; ++k) {
+      const float u = face.shares[2 * k], v = face.shares[2 * k + 1];
+      const Eigen::Vector2f place(u * 16.0f - 0.5f, (1.0f - v) * 4.0f - 0.5f);
+      EXPECT_LT((place - textured.places[textured.mesh.triangles[i][k]]).norm(), 1e-4f);
+    }
+  }
+}
+
+TEST(TexturedMeshFile, assimpFindsTheTextureOfAPly) {
+  const TemporaryFolder folder;
+  TexturedMesh textured = texturedPyramid();
+  textured.mesh.triangles.resize(2);
+  textured.page_ends.resize(1);
+  textured.pages.resize(1);
+  writeTexturedMesh(folder / "pyramid.ply", textured);
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(folder / "pyramid.ply", 0);
+  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+  const aiMesh& mesh = *scene->mMeshes[0];
+  ASSERT_TRUE(mesh.HasTextureCoords(0));
+  aiString name;
+  ASSERT_EQ(scene->mMaterials[mesh.mMaterialIndex]->GetTexture(aiTextureType_DIFFUSE, 0, &name),
+            aiReturn_SUCCESS);
+  EXPECT_EQ(std::string(name.C_Str()), "pyramid_0.png");
+  for (unsigned int face = 0; face < 2; ++face) {
+    for (unsigned int i = 0; i < 3; ++i)
+      EXPECT_EQ(colorAt(mesh, mesh.mFaces[face].mIndices[i], textured.pages[0]),
+                cv::Vec3b(0, face == 0 ? 0 : 255, 100));
+  }
+}
+
 TEST(TexturedMeshFile, badPathsAreNamed) {
   const TemporaryFolder folder;
-  expectError([&] { writeTexturedMesh(folder / "mesh.ply", texturedPyramid()); },
-              {"mesh.ply", ".obj or .glb"});
+  expectError([&] { writeTexturedMesh(folder / "mesh.stl", texturedPyramid()); },
+              {"mesh.stl", ".obj, .glb or .ply"});
   expectError([&] { writeTexturedMesh(folder / "no/such/mesh.glb", texturedPyramid()); },
               {"no/such", "does not exist"});
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));

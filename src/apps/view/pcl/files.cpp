@@ -6,8 +6,8 @@
 #include <pcl/point_types.h>
 
 #include "apps/view/model.h"
-#include "apps/view/obj_file.h"
 #include "depth_fusion/common/error.h"
+#include "surface_mesh/mesh_normals.h"
 
 namespace depth_fusion {
 namespace {

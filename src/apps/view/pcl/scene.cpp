@@ -1,6 +1,7 @@
 #include "apps/view/pcl/scene.h"
 
 #include <vtkCamera.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWorldPointPicker.h>
@@ -18,6 +19,7 @@ namespace {
 constexpr double kFieldOfView_rad = 1.05;  // horizontal
 constexpr double kStepBack = 0.15;         // of the distance from which nearly all is seen
 constexpr double kRulerEnd_rad = 0.004;    // as large as the ruler's ends look
+constexpr char kModel[] = "model";         // what the names of its parts begin with
 constexpr char kKeys[] = "n paint   v fly   t way   b behind   shift+click measure   r all   q quit";
 
 }  // namespace
@@ -32,13 +34,16 @@ Scene::Scene(const WindowOptions& options)
 
 void Scene::show(const ViewedModel& model, const SceneOptions& options, const Ruler& ruler) {
   viewer_.removeAllShapes();
-  viewer_.addModelFromPolyData(surfaceData(model, options.paint), "model");
-  vtkProperty& surface = propertyOf("model");
-  surface.SetBackfaceCulling(options.behind ? 0 : 1);
-  surface.SetLighting(options.paint != "colors");
-  surface.SetAmbient(0.25);
-  surface.SetDiffuse(0.75);
-  surface.SetPointSize(3.0f);
+  if (options.paint == "texture") {
+    for (size_t page = 0; page < model.pages.size(); ++page) {
+      const std::string name = kModel + std::to_string(page);
+      addTextured(name, *pageData(model, page), *textureOf(model.pages[page]));
+      showSurface(name, options);
+    }
+  } else {
+    viewer_.addModelFromPolyData(surfaceData(model, options.paint), kModel);
+    showSurface(kModel, options);
+  }
   if (options.way && model.way.size() > 1) {
     viewer_.addModelFromPolyData(wayData(model.way), "way");
     propertyOf("way").SetColor(1.0, 0.65, 0.1);
@@ -47,6 +52,15 @@ void Scene::show(const ViewedModel& model, const SceneOptions& options, const Ru
   }
   if (options_.screenshot.empty()) viewer_.addText(kKeys, 10, 10, 14, 0.7, 0.75, 0.8, "keys");
   show(ruler);
+}
+
+void Scene::showSurface(const std::string& name, const SceneOptions& options) {
+  vtkProperty& surface = propertyOf(name);
+  surface.SetBackfaceCulling(options.behind ? 0 : 1);
+  surface.SetLighting(options.paint != "colors" && options.paint != "texture");
+  surface.SetAmbient(0.25);
+  surface.SetDiffuse(0.75);
+  surface.SetPointSize(3.0f);
 }
 
 void Scene::show(const Ruler& ruler) {
@@ -109,8 +123,19 @@ std::optional<Eigen::Vector3d> Scene::pointAt(int x, int y) {
 
 void Scene::showOthers(bool visible) {
   for (auto& [name, actor] : *viewer_.getShapeActorMap()) {
-    if (name != "model") vtkProp::SafeDownCast(actor)->SetVisibility(visible ? 1 : 0);
+    if (name.rfind(kModel, 0) != 0) vtkProp::SafeDownCast(actor)->SetVisibility(visible ? 1 : 0);
   }
+}
+
+// PCL's own actors, vtkLODActor, draw no textures.
+void Scene::addTextured(const std::string& name, vtkPolyData& data, vtkTexture& texture) {
+  const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
+  mapper->SetInputData(&data);
+  const auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->SetTexture(&texture);
+  renderer().AddActor(actor);
+  (*viewer_.getShapeActorMap())[name] = actor;
 }
 
 vtkProperty& Scene::propertyOf(const std::string& shape) {

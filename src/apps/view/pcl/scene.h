@@ -2,6 +2,8 @@
 #pragma once
 
 #include <pcl/visualization/pcl_visualizer.h>
+#include <vtkPolyData.h>
+#include <vtkTexture.h>
 
 #include <opencv2/core.hpp>
 #include <optional>
@@ -39,7 +41,9 @@ class Scene {
   pcl::visualization::PCLVisualizer& viewer() { return viewer_; }
 
  private:
+  void addTextured(const std::string& name, vtkPolyData& data, vtkTexture& texture);
   vtkProperty& propertyOf(const std::string& shape);
+  void showSurface(const std::string& name, const SceneOptions& options);
   vtkRenderer& renderer() { return *viewer_.getRendererCollection()->GetFirstRenderer(); }
   void show(const Ruler& ruler);
   // All that is not the model.

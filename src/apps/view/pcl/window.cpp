@@ -1,7 +1,9 @@
 #include "apps/view/window.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <filesystem>
 
 #include "apps/view/pcl/display.h"
 #include "apps/view/pcl/scene.h"
@@ -16,15 +18,20 @@ using pcl::visualization::MouseEvent;
 
 constexpr double kFlight_s = 20.0;  // along the whole way
 constexpr int kSpin_ms = 20;
+constexpr auto kFollowPeriod = std::chrono::milliseconds(300);
+
+using FileTime = std::filesystem::file_time_type;
 
 class Window {
  public:
   Window(const WindowOptions& options, const std::function<ViewedModel()>& read)
-      : options_(options), model_(read()), scene_(options), shown_{"", options.behind, !options.without_way} {
-    check(!model_.mesh.vertices.empty(), options_.model + " has no surface");
-    const std::vector<std::string> paints = paintsOf(model_);
-    const auto paint = std::find(paints.begin(), paints.end(), options.paint);
-    shown_.paint = paint == paints.end() ? paints.front() : *paint;
+      : options_(options),
+        read_(read),
+        shown_change_(changeTime()),
+        model_(read()),
+        scene_(options),
+        shown_{"", options.behind, !options.without_way} {
+    choosePaint();
     show();
     scene_.lookFrom(options.view, model_.mesh);
   }
@@ -34,13 +41,43 @@ class Window {
   void run() {
     scene_.viewer().registerKeyboardCallback([this](const KeyboardEvent& event) { onKey(event); });
     scene_.viewer().registerMouseCallback([this](const MouseEvent& event) { onMouse(event); });
+    auto next_look = std::chrono::steady_clock::now();
     while (!scene_.viewer().wasStopped()) {
       scene_.viewer().spinOnce(kSpin_ms);
       if (flight_s_ >= 0.0) fly();
+      if (!options_.follow || std::chrono::steady_clock::now() < next_look) continue;
+      follow();
+      next_look = std::chrono::steady_clock::now() + kFollowPeriod;
     }
   }
 
  private:
+  // Of the mesh; the earliest there is if there is none.
+  FileTime changeTime() const {
+    const std::filesystem::path path = options_.model;
+    std::error_code none;
+    const FileTime time = std::filesystem::last_write_time(
+        std::filesystem::is_directory(path) ? path / "mesh.ply" : path, none);
+    return none ? FileTime::min() : time;
+  }
+
+  // Shows the model anew if it has changed, all of it until the user has taken the mouse.
+  void follow() {
+    const FileTime change = changeTime();
+    if (change == shown_change_ || change == FileTime::min()) return;
+    shown_change_ = change;
+    model_ = read_();
+    choosePaint();
+    show();
+    if (!is_turned_) scene_.lookFrom(options_.view, model_.mesh);
+  }
+
+  void choosePaint() {
+    const std::vector<std::string> paints = paintsOf(model_);
+    const auto paint = std::find(paints.begin(), paints.end(), wanted_paint_);
+    shown_.paint = paint == paints.end() ? paints.front() : *paint;
+  }
+
   void show() { scene_.show(model_, shown_, ruler_); }
 
   void fly() {
@@ -60,12 +97,15 @@ class Window {
     if (key == "n") {
       const std::vector<std::string> paints = paintsOf(model_);
       const auto next = std::find(paints.begin(), paints.end(), shown_.paint) + 1;
-      shown_.paint = next == paints.end() ? paints.front() : *next;
+      wanted_paint_ = shown_.paint = next == paints.end() ? paints.front() : *next;
     }
     if (key == "m" || key == "t" || key == "b" || key == "n") show();
   }
 
   void onMouse(const MouseEvent& event) {
+    is_turned_ = is_turned_ || event.getType() == MouseEvent::MouseButtonPress ||
+                 event.getType() == MouseEvent::MouseScrollUp ||
+                 event.getType() == MouseEvent::MouseScrollDown;
     if (event.getType() != MouseEvent::MouseButtonPress || event.getButton() != MouseEvent::LeftButton ||
         (event.getKeyboardModifiers() & KeyboardEvent::Shift) == 0)
       return;
@@ -78,9 +118,13 @@ class Window {
   }
 
   const WindowOptions& options_;
-  const ViewedModel model_;
+  const std::function<ViewedModel()> read_;
+  FileTime shown_change_;  // of the model that is shown
+  ViewedModel model_;
   Scene scene_;
   SceneOptions shown_;
+  std::string wanted_paint_ = options_.paint;
+  bool is_turned_ = false;  // by the user
   Ruler ruler_;
   double flight_s_ = -1.0;  // since it began; negative: none
 };

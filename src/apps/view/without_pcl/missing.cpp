@@ -6,13 +6,15 @@ namespace depth_fusion {
 namespace {
 
 constexpr char kMissing[] =
-    "this depth_fusion was built without PCL's visualization, which shows models; install libpcl-dev and "
-    "build again";
+    "this depth_fusion was built without PCL's visualization or assimp, which show and read models; install "
+    "libpcl-dev and libassimp-dev, and build again";
 
 }  // namespace
 
 void showWindow(const WindowOptions&, const std::function<ViewedModel()>&) { throw Error(kMissing); }
 
 TriangleMesh readByPcl(const std::string&) { throw Error(kMissing); }
+
+ViewedModel readByAssimp(const std::string&) { throw Error(kMissing); }
 
 }  // namespace depth_fusion

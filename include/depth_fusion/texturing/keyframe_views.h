@@ -1,0 +1,17 @@
+// The pictures that keyframes have of a map.
+#pragma once
+
+#include <vector>
+
+#include "depth_fusion/relocalisation/keyframe.h"
+#include "depth_fusion/texturing/texturing.h"
+
+namespace depth_fusion {
+
+// The picture, taken when the depth camera was there.
+TexturingView viewOf(const KeyframeColor& color, const Pose& T_W_D);
+
+// Those of the keyframes that have one.
+std::vector<TexturingView> viewsOf(const Keyframes& keyframes);
+
+}  // namespace depth_fusion
