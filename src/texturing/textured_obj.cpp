@@ -6,7 +6,7 @@
 namespace depth_fusion {
 namespace {
 
-void addVertices(const TexturedMesh& mesh, GrowingFile& obj) {
+void writeVertices(const TexturedMesh& mesh, GrowingFile& obj) {
   const std::vector<Eigen::Vector2f> shares = sharesOf(mesh);
   for (size_t i = 0; i < mesh.places.size(); ++i) {
     const Eigen::Vector3d p = mesh.mesh.vertices[i].position_W.cast<double>();
@@ -38,7 +38,7 @@ void writeTexturedObj(const std::string& path, const TexturedMesh& mesh) {
     materials.add("newmtl page_" + std::to_string(i) + "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 0\nmap_Kd " +
                   pages.names()[i] + "\n");
   obj.add("# depth_fusion, metres\nmtllib " + material_path.filename().string() + "\n");
-  addVertices(mesh, obj);
+  writeVertices(mesh, obj);
   addFaces(mesh, obj);
   pages.commit();
   materials.commit();
