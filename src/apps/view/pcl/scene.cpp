@@ -24,7 +24,7 @@ constexpr char kKeys[] = "n paint   v fly   t way   b behind   shift+click measu
 
 }  // namespace
 
-Scene::Scene(const WindowOptions& options)
+ModelScene::ModelScene(const WindowOptions& options)
     : options_(options), viewer_("depth_fusion: " + options.model, options.screenshot.empty()) {
   viewer_.setBackgroundColor(0.11, 0.125, 0.15);
   viewer_.getRenderWindow()->SetOffScreenRendering(options.screenshot.empty() ? 0 : 1);
@@ -32,7 +32,7 @@ Scene::Scene(const WindowOptions& options)
   viewer_.setShowFPS(false);
 }
 
-void Scene::show(const ViewedModel& model, const SceneOptions& options, const Ruler& ruler) {
+void ModelScene::show(const ViewedModel& model, const SceneOptions& options, const Ruler& ruler) {
   viewer_.removeAllShapes();
   if (options.paint == "texture") {
     for (size_t page = 0; page < model.pages.size(); ++page) {
@@ -54,7 +54,7 @@ void Scene::show(const ViewedModel& model, const SceneOptions& options, const Ru
   show(ruler);
 }
 
-void Scene::showSurface(const std::string& name, const SceneOptions& options) {
+void ModelScene::showSurface(const std::string& name, const SceneOptions& options) {
   vtkProperty& surface = propertyOf(name);
   surface.SetBackfaceCulling(options.behind ? 0 : 1);
   surface.SetLighting(options.paint != "colors" && options.paint != "texture");
@@ -63,7 +63,7 @@ void Scene::showSurface(const std::string& name, const SceneOptions& options) {
   surface.SetPointSize(3.0f);
 }
 
-void Scene::show(const Ruler& ruler) {
+void ModelScene::show(const Ruler& ruler) {
   const Eigen::Vector3d eye_W(renderer().GetActiveCamera()->GetPosition());
   std::vector<pcl::PointXYZ> ends;
   for (const Eigen::Vector3d& p_W : ruler.points_W()) {
@@ -76,7 +76,7 @@ void Scene::show(const Ruler& ruler) {
   if (!ends.empty()) viewer_.addText(ruler.text(), 10, 34, 18, 1.0, 0.8, 0.3, "says");
 }
 
-cv::Mat Scene::picture() {
+cv::Mat ModelScene::picture() {
   vtkRenderWindow& window = *viewer_.getRenderWindow();
   window.Render();
   const int* size = window.GetSize();
@@ -88,7 +88,7 @@ cv::Mat Scene::picture() {
   return picture;
 }
 
-void Scene::lookFrom(const std::string& view, const TriangleMesh& mesh) {
+void ModelScene::lookFrom(const std::string& view, const TriangleMesh& mesh) {
   const CameraIntrinsics camera = pictureCamera(options_.width, options_.height, kFieldOfView_rad);
   viewer_.setCameraFieldOfView(2.0 * std::atan(0.5 * options_.height / camera.fy));
   const Eigen::Matrix3d R_L_W = levelFrom(mesh);
@@ -102,7 +102,7 @@ void Scene::lookFrom(const std::string& view, const TriangleMesh& mesh) {
   look(T_W_C, (1.0 + kStepBack) * distance_m);
 }
 
-void Scene::look(const Pose& T_W_C, double distance_m) {
+void ModelScene::look(const Pose& T_W_C, double distance_m) {
   const Eigen::Vector3d eye = T_W_C.translation(), up = -T_W_C.linear().col(1);
   const Eigen::Vector3d target = eye + distance_m * T_W_C.linear().col(2);
   viewer_.setCameraPosition(eye.x(), eye.y(), eye.z(), target.x(), target.y(), target.z(), up.x(), up.y(),
@@ -110,7 +110,7 @@ void Scene::look(const Pose& T_W_C, double distance_m) {
   renderer().ResetCameraClippingRange();
 }
 
-std::optional<Eigen::Vector3d> Scene::pointAt(int x, int y) {
+std::optional<Eigen::Vector3d> ModelScene::pointAt(int x, int y) {
   showOthers(false);
   viewer_.getRenderWindow()->Render();
   const bool is_surface = renderer().GetZ(x, y) < 1.0;
@@ -121,14 +121,14 @@ std::optional<Eigen::Vector3d> Scene::pointAt(int x, int y) {
   return Eigen::Vector3d(picker->GetPickPosition());
 }
 
-void Scene::showOthers(bool visible) {
+void ModelScene::showOthers(bool visible) {
   for (auto& [name, actor] : *viewer_.getShapeActorMap()) {
     if (name.rfind(kModel, 0) != 0) vtkProp::SafeDownCast(actor)->SetVisibility(visible ? 1 : 0);
   }
 }
 
 // PCL's own actors, vtkLODActor, draw no textures.
-void Scene::addTextured(const std::string& name, vtkPolyData& data, vtkTexture& texture) {
+void ModelScene::addTextured(const std::string& name, vtkPolyData& data, vtkTexture& texture) {
   const auto mapper = vtkSmartPointer<vtkPolyDataMapper>::New();
   mapper->SetInputData(&data);
   const auto actor = vtkSmartPointer<vtkActor>::New();
@@ -138,7 +138,7 @@ void Scene::addTextured(const std::string& name, vtkPolyData& data, vtkTexture& 
   (*viewer_.getShapeActorMap())[name] = actor;
 }
 
-vtkProperty& Scene::propertyOf(const std::string& shape) {
+vtkProperty& ModelScene::propertyOf(const std::string& shape) {
   return *vtkActor::SafeDownCast(viewer_.getShapeActorMap()->at(shape))->GetProperty();
 }
 

@@ -21,10 +21,10 @@ struct SceneOptions {
   bool way = true;
 };
 
-class Scene {
+class ModelScene {
  public:
   // A window of that size, on the screen or, for a screenshot, in memory.
-  explicit Scene(const WindowOptions& options);
+  explicit ModelScene(const WindowOptions& options);
 
   // Takes the place of what was shown before.
   void show(const ViewedModel& model, const SceneOptions& options, const Ruler& ruler);

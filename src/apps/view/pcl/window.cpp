@@ -121,7 +121,7 @@ class Window {
   const std::function<ViewedModel()> read_;
   FileTime shown_change_;  // of the model that is shown
   ViewedModel model_;
-  Scene scene_;
+  ModelScene scene_;
   SceneOptions shown_;
   std::string wanted_paint_ = options_.paint;
   bool is_turned_ = false;  // by the user
