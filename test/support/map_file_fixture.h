@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "shared/types.h"
 #include "support/stored_maps.h"
 #include "support/temporary_folder.h"
 #include "support/test_compute.h"
@@ -21,7 +22,7 @@ class MapFile : public testing::Test {
   ChangingMap changing_{compute(), map_};
 };
 
-// Everything that a map is told by, its states included.
+// Everything that a map is told by, its states included; a block that was kept is kept on.
 inline void expectSame(BlockMap& a, BlockMap& b) {
   EXPECT_TRUE(readMap(a) == readMap(b));
   std::map<BlockKey, int> states[2];
@@ -30,7 +31,7 @@ inline void expectSame(BlockMap& a, BlockMap& b) {
     const std::vector<int> of_slots = map.blockStates().read<int>(map.slots().bound());
     const std::vector<int> offsets = map.offsets().read<int>(map.window().blockCount());
     for (const SlotTable::Block& block : map.slots().blocks()) {
-      states[i][keyOf(block.index)] = of_slots[block.slot];
+      states[i][keyOf(block.index)] = of_slots[block.slot] | BLOCK_SURE;
       EXPECT_EQ(offsets[map.window().address(block.index)], block.slot);
     }
   }

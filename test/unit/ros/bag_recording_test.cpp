@@ -147,7 +147,7 @@ TEST_F(BagRecordingTest, takes_given_topics) {
   // What is wrong with the colour that was asked for costs no depth.
   const std::map<std::string, std::vector<std::string>> faults = {
       {"/right/image", {path, "/right/image", "/left/image [sensor_msgs/Image]"}},
-      {kDepthInfo, {path, kDepthInfo, "no image topic"}},
+      {kDepthInfo, {path, kDepthInfo, "no topic of images or clouds"}},
       {kDepthTopic, {path, kDepthTopic, "16UC1", "bgr8"}}};
   for (const auto& [topic, words] : faults) {
     options.color_topic = topic;

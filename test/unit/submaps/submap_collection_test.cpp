@@ -160,7 +160,7 @@ TEST(SubmapCollection, WhatIsNotSureIsNotGoneOnWith) {
     submaps.show(kWalkCamera, T_W_D, kWalkRange_m);
   };
   goTo(0.0);
-  map.insert({{0, 0, 0}});
+  map.setStates(map.insert({{0, 0, 0}}), {BLOCK_HAS_DATA | BLOCK_SURE});
   for (double x = 0.1; x < 1.5; x += 0.1) goTo(x);
   EXPECT_EQ(submaps.active(), 1u);
   for (double x = 1.5; x > -0.3; x -= 0.1) goTo(x);
