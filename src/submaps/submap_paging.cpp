@@ -87,7 +87,7 @@ SubmapCollection::BlockSet SubmapCollection::bringBack(const std::vector<BlockIn
   if (blocks.empty()) return {};
   const std::vector<int> slots = map_.insert(blocks);
   for (int& state : all.front().states)
-    state |= BLOCK_SURE;  // earlier versions stored no other blocks, either
+    state |= BLOCK_SURE;  // what was stored once stays, also of versions that knew no such bit
   map_.setStates(slots, all.front().states);
   for (size_t i = 0; i < layers_.size(); ++i) map_.setVoxels(layers_[i].name, slots, all[i].voxels);
   return {blocks.begin(), blocks.end()};

@@ -51,7 +51,7 @@ inline sensor_msgs::PointCloud2Ptr cloudOf(const std_msgs::Header& header, const
   return cloud;
 }
 
-// The same points in one row, as lidars and time-of-flight cameras publish them.
+// Puts the same points in one row, as lidars and time-of-flight cameras publish them.
 inline sensor_msgs::PointCloud2Ptr asList(const sensor_msgs::PointCloud2& organised) {
   const auto list = boost::make_shared<sensor_msgs::PointCloud2>(organised);
   list->data.clear();

@@ -48,7 +48,7 @@ class BlosterTexture : public testing::Test {
           comparePictures(renderMesh(*colored, views_[view].camera, T_W_C), picture, covered).psnr_db;
     return result;
   }
-  // Of all the views, two at a time where there are two cores.
+  // All the views are predicted, two at a time where there are two cores.
   std::vector<Prediction> predictAll(const TexturedMesh& textured, const std::vector<int>& views,
                                      const TriangleMesh* colored = nullptr) const {
     std::vector<Prediction> predictions(views.size());

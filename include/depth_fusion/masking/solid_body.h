@@ -25,7 +25,7 @@ struct Solid {
 
   // Whether the point is in the solid, or nearer than about padding_m to it.
   bool contains(const Eigen::Vector3d& p_S, double padding_m) const;
-  // Of the sphere about its middle that has all of it.
+  // The sphere about its middle that has all of it is so large.
   double radius_m() const;
 };
 

@@ -11,7 +11,7 @@ namespace depth_fusion {
 // The picture, taken when the depth camera was there.
 TexturingView viewOf(const KeyframeColor& color, const Pose& T_W_D);
 
-// Those of the keyframes that have one.
+// The views of those keyframes that have a picture.
 std::vector<TexturingView> viewsOf(const Keyframes& keyframes);
 
 }  // namespace depth_fusion

@@ -43,7 +43,7 @@ class SourceFinder {
     noteRivals();
     if (options_.intrinsics) {
       sources_.intrinsics = chooseIntrinsics(options_.intrinsics, std::nullopt, depth.size, bags_.name());
-    } else if (typeOf(sources_.depth_topic) == kPointCloudType) {
+    } else if (topicNamed(sources_.depth_topic)->type == kPointCloudType) {
       findCloudCamera();
     } else {
       findDepthCamera(depth.size);
@@ -61,21 +61,21 @@ class SourceFinder {
     return topic->name;
   }
 
-  std::string givenTopic(const std::string& name) const {
+  // Null if there is none.
+  const BagTopic* topicNamed(const std::string& name) const {
     const auto topic =
         std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& t) { return t.name == name; });
-    check(topic != topics_.end(),
+    return topic == topics_.end() ? nullptr : &*topic;
+  }
+
+  std::string givenTopic(const std::string& name) const {
+    const BagTopic* topic = topicNamed(name);
+    check(topic != nullptr,
           bags_.name() + ": there is no topic " + name + "; the bag holds " + listTopics(topics_));
     check(topic->type == kImageType || topic->type == kCompressedImageType || topic->type == kPointCloudType,
           bags_.name() + ": " + name + " is no topic of images or clouds; the bag holds " +
               listTopics(topics_));
     return name;
-  }
-
-  std::string typeOf(const std::string& name) const {
-    const auto topic =
-        std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& t) { return t.name == name; });
-    return topic == topics_.end() ? "" : topic->type;
   }
 
   // Organised clouds tell their camera themselves.

@@ -175,9 +175,14 @@ class SurfaceExport {
 
   void remark(const std::string& text) { remarks_ += (remarks_.empty() ? "" : "; ") + text; }
 
+  // Who wants the export may give it up.
+  void ask(double done) const {
+    if (progress_) progress_(done);
+  }
+
   void tell(double done) const {
     sayProgress(done);
-    if (progress_) progress_(done);
+    ask(done);
   }
 
   MeshSize writeStreamed(WorldSnapshot& snapshot) {
@@ -195,7 +200,7 @@ class SurfaceExport {
   MeshSize writeTextured(WorldSnapshot& snapshot, uint32_t generation) {
     const TexturedExport textured =
         exportTextured(path_, request_.format, finishedMesh(snapshot), map_.keyframesOf(generation),
-                       parameters_.texturing, [this] { tell(1.0); });
+                       parameters_.texturing, [this] { ask(1.0); });
     remark(textured.remark);
     return textured.size;
   }

@@ -39,7 +39,7 @@ double edgeOf(const TriangleMesh& mesh) {
 // How much larger than the mesh the octree's cube is: where it was not seen, the surface bulges.
 constexpr double kScale = 2.0;
 
-// Of the octree, so that its cells are as large as the mesh's edges.
+// The octree is so deep that its cells are as large as the mesh's edges.
 int depthFor(const TriangleMesh& mesh) {
   constexpr int kLeast = 5, kMost = 11;
   Eigen::AlignedBox3f box;

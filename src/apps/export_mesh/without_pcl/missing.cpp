@@ -7,8 +7,7 @@ namespace {
 
 constexpr char kMissing[] =
     "this depth_fusion was built without PCL, which finds the ground and closes models; install libpcl-dev "
-    "and "
-    "build again";
+    "and build again";
 
 }  // namespace
 

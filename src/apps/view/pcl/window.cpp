@@ -52,7 +52,7 @@ class Window {
   }
 
  private:
-  // Of the mesh; the earliest there is if there is none.
+  // The mesh was written then; the earliest time there is if there is none.
   FileTime changeTime() const {
     const std::filesystem::path path = options_.model;
     std::error_code none;
