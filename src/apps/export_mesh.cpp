@@ -74,16 +74,18 @@ void exportMap(const Arguments& arguments, MeshSink& sink) {
   map.exportMesh(sink);
 }
 
-// The surface, changed as it is wanted; `remark` says how.
-TriangleMesh changedMesh(const Arguments& arguments, std::string& remark) {
+// The surface, changed as it is wanted.
+FinishedMesh changedMesh(const Arguments& arguments) {
   TriangleMesh mesh;
   if (endingOf(arguments.input) == "ply")
     mesh = readPly(arguments.input);
   else
     exportMap(arguments, mesh);
-  FinishedMesh result = finished(objectOf(std::move(mesh), arguments.object, remark), arguments.finish);
-  if (!result.remark.empty()) remark += (remark.empty() ? "" : ", ") + result.remark;
-  return std::move(result.mesh);
+  FinishedMesh object = objectOf(std::move(mesh), arguments.object);
+  FinishedMesh result = finished(std::move(object.mesh), arguments.finish);
+  const bool says_both = !object.remark.empty() && !result.remark.empty();
+  result.remark = object.remark + (says_both ? ", " : "") + result.remark;
+  return result;
 }
 
 void exportMesh(const Arguments& arguments) {
@@ -94,8 +96,7 @@ void exportMesh(const Arguments& arguments) {
     std::cout << arguments.output << ": written\n";
     return;
   }
-  std::string remark;
-  const TriangleMesh mesh = changedMesh(arguments, remark);
+  const auto [mesh, remark] = changedMesh(arguments);
   sendMesh(mesh, *file);
   std::cout << arguments.output << ": " << mesh.vertices.size() << " vertices, " << mesh.triangles.size()
             << " triangles" << (remark.empty() ? "" : "; " + remark) << "\n";

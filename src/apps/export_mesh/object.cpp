@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "depth_fusion/common/error.h"
 #include "surface_mesh/mesh_part.h"
@@ -39,27 +41,29 @@ void append(std::string& remark, const std::string& text) { remark += (remark.em
 
 }  // namespace
 
-TriangleMesh objectOf(TriangleMesh mesh, const ObjectOptions& options, std::string& remark) {
+FinishedMesh objectOf(TriangleMesh mesh, const ObjectOptions& options) {
+  FinishedMesh object{std::move(mesh), ""};
   const auto sayLeft = [&](const std::string& what, size_t before) {
-    check(!mesh.triangles.empty(), "nothing of the surface is left after it was " + what);
-    append(remark, what + " (" + std::to_string(mesh.triangles.size()) + " of " + std::to_string(before) +
-                       " triangles left)");
+    const size_t left = object.mesh.triangles.size();
+    check(left > 0, "nothing of the surface is left after it was " + what);
+    append(object.remark,
+           what + " (" + std::to_string(left) + " of " + std::to_string(before) + " triangles left)");
   };
-  const size_t scanned = mesh.triangles.size();
+  const size_t scanned = object.mesh.triangles.size();
   if (options.crop_m) {
-    mesh = cropped(mesh, *options.crop_m);
+    object.mesh = cropped(object.mesh, *options.crop_m);
     sayLeft("cropped", scanned);
   }
-  const size_t with_ground = mesh.triangles.size();
+  const size_t with_ground = object.mesh.triangles.size();
   if (options.ground_m > 0.0f) {
-    mesh = withoutGround(mesh, options.ground_m);
+    object.mesh = withoutGround(object.mesh, options.ground_m);
     sayLeft("taken off the ground", with_ground);
   }
   if (options.closed) {
-    mesh = closedModel(mesh);
-    append(remark, "closed");
+    object.mesh = closedModel(object.mesh);
+    append(object.remark, "closed");
   }
-  return mesh;
+  return object;
 }
 
 }  // namespace depth_fusion

@@ -3,8 +3,8 @@
 
 #include <array>
 #include <optional>
-#include <string>
 
+#include "depth_fusion/surface_mesh/mesh_finish.h"
 #include "depth_fusion/surface_mesh/triangle_mesh.h"
 
 namespace depth_fusion {
@@ -17,9 +17,9 @@ struct ObjectOptions {
   bool changesMesh() const { return crop_m || ground_m > 0.0f || closed; }
 };
 
-// Crops first, then removes the ground and closes. `remark` says what was done. Throws Error if nothing is
-// left, and if depth_fusion was built without what it needs.
-TriangleMesh objectOf(TriangleMesh mesh, const ObjectOptions& options, std::string& remark);
+// Crops first, then removes the ground and closes. Throws Error if nothing is left, and if depth_fusion was
+// built without what it needs.
+FinishedMesh objectOf(TriangleMesh mesh, const ObjectOptions& options);
 
 // The largest plane among the vertices, of which the normal (x, y, z, of length 1) points to the side that
 // most of the others are on; w is such that points of the plane have x, y, z times the normal plus w equal to
